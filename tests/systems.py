@@ -36,7 +36,7 @@ def _toy_field(x: Sequence[sp.Symbol], p: Sequence[sp.Symbol]) -> list[sp.Expr]:
 def closed_form_critical_speed(
     values: dict[str, float], flange_stiffness: float = 0.0
 ) -> tuple[float, float]:
-    """(v [m/s], w [rad/s]) of a linear wheelset without contact stiffness, in closed form; nan: stable at any speed.
+    """(v [m/s], w [rad/s]) of a linear wheelset without contact stiffness; v nan: always stable.
 
     With k1 = 2 Ky + flange, k2 = 2 Kx wp^2, D1 = 2 f22, D2 = 2 f11 b^2:
     w^2 = (D1 k2 + D2 k1)/(m D2 + I D1),

@@ -39,7 +39,8 @@ def test_an_item_on_two_pages_or_on_none_of_the_papers_is_refused():
 
 def test_fitted_rows_say_so():
     table = with_fits(compare(items_of("Table 2"), ONE, "guo2021_case1"), "guo2021_case1")
-    assert set(table[is_fitted(table)]["item"]) == {"Table 2: case 1, none"}
+    laws = ("none", "exponential", "polynomial")
+    assert set(table[is_fitted(table)]["item"]) == {f"Table 2: case 1, {law}" for law in laws}
     assert not is_fitted(with_fits(table.assign(reason=""), "guo2021_physical")).any()
 
 
@@ -50,10 +51,12 @@ def test_fits_are_of_known_vehicles_and_items():
 
 
 def test_a_figure_agrees_if_every_sentence_about_it_holds():
-    rows = [("Fig. 4: exponential", "near", 2e3, "N", 0.0, 1e4, holds) for holds in (True, False)]
-    columns = ["item", "claim", "measured", "unit", "low", "high", "holds"]
+    cases = {"agrees": (True, True), "within tolerance": (False, True), "differs": (False, False)}
+    rows = [("Fig. 4: exponential", "near", 2e3, "N", *case) for case in cases.values()]
+    columns = ["item", "claim", "measured", "unit", "holds", "tolerated"]
     claims = pd.DataFrame(rows, columns=columns)
     key = ("Fig. 4: exponential", "figure")
-    assert judge(claims[:1], {})[key].verdict == "agrees"
-    assert judge(claims, {})[key].verdict == "differs"
-    assert "near: 2.00 kN" in judge(claims, {})[key].reason
+    for count, expected in enumerate(cases, start=1):
+        judged = judge(claims[:count], {})[key]
+        assert judged.verdict == expected
+        assert "near: 2.00 kN" in judged.reason

@@ -139,7 +139,20 @@ class TestSymmetry:
 class TestLimits:
     def test_conical_wheel_gives_klingels_wavelength(self):
         """No mass forces, no suspension, no gravity stiffness: L = 2 pi sqrt(b r0 / a1)."""
-        gone = "a3 c0 c1 c3 e1 e3 f1 f3 radius_offset Kpx Kpy f23_factor".split()
+        gone = [
+            "a3",
+            "c0",
+            "c1",
+            "c3",
+            "e1",
+            "e3",
+            "f1",
+            "f3",
+            "radius_offset",
+            "Kpx",
+            "Kpy",
+            "f23_factor",
+        ]
         # Creep forces fall with the load to 2/3, gravity with the load: a small one leaves rolling.
         light = {**dict.fromkeys(gone, 0.0), "mw": 1e-6, "Iwz": 1e-6, "p0": 1e-3}
         system = hunting_system(reading({"contact_angle_sign": "physical"}, light))

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from wheelset.published.comparison import DIFFERS, Judgement
+from wheelset.published.comparison import AGREES, DIFFERS, WITHIN, Judgement
 from wheelset.published.departures import departure_of
 from wheelset.published.items import FIGURE
 
@@ -16,8 +16,9 @@ def judge(
 ) -> dict[tuple[str, str], float | Judgement | None]:
     """A Judgement for each figure panel, ready for ``compare``.
 
-    claims: item, claim, measured, unit, low, high, holds. vehicles: by item, for the reason of a
-    known departure. A panel agrees if every sentence about it holds.
+    claims: item, claim, measured, unit, holds, tolerated. vehicles: by item, for the reason of a
+    known departure. A panel agrees if every sentence about it holds, and is within tolerance if
+    each is at least tolerated.
     """
     return {
         (str(item), FIGURE): _judgement(str(item), rows, vehicles.get(str(item), ""))
@@ -30,7 +31,9 @@ def _judgement(item: str, claims: pd.DataFrame, vehicle: str) -> Judgement:
         f"{row.claim}: {_measured(row.measured, row.unit)}" for row in claims.itertuples()
     )
     if claims["holds"].all():
-        return Judgement("agrees", f"{words}.")
+        return Judgement(AGREES, f"{words}.")
+    if claims["tolerated"].all():
+        return Judgement(WITHIN, f"{words}.")
     departure = departure_of(item, FIGURE, vehicle)
     return Judgement(DIFFERS, f"{words}. {departure.reason if departure else ''}".strip())
 

@@ -14,6 +14,8 @@ from wheelset.published.rules import VERDICTS, Verdict, verdict
 
 COLUMNS = ("item", "quantity", "published", "computed", "difference", "verdict", "reason")
 
+AGREES: Verdict = "agrees"
+WITHIN: Verdict = "within tolerance"
 DIFFERS: Verdict = "differs"
 NOT_YET: Verdict = "not yet"
 

@@ -18,12 +18,19 @@ class Fit:
 
 
 _TABLE_2 = "Fitted: a1 and a3 of this case were chosen so that this row comes out."
+_QUINTIC = (
+    "Fitted: the wheel load of section 3 was chosen so that the two polynomial rows come out."
+)
 _TABLE_3 = "Fitted: the unprinted values were chosen on Table 3's Hopf speeds and coefficients."
 _BOTH = ("hopf_speed", "flc")
 
 FITS: tuple[Fit, ...] = (
     Fit("Table 2: case 1, none", _BOTH, "guo2021_case1", _TABLE_2),
     Fit("Table 2: case 2, none", _BOTH, "guo2021_case2", _TABLE_2),
+    Fit("Table 2: case 1, exponential", _BOTH, "guo2021_case1", _TABLE_2),
+    Fit("Table 2: case 2, exponential", _BOTH, "guo2021_case2", _TABLE_2),
+    Fit("Table 2: case 1, polynomial", _BOTH, "guo2021_case1", _QUINTIC),
+    Fit("Table 2: case 2, polynomial", _BOTH, "guo2021_case2", _QUINTIC),
     Fit("Table 3:", _BOTH, "guo2021", _TABLE_3),
     Fit("Table 3:", _BOTH, "guo2021_m2", _TABLE_3),
 )

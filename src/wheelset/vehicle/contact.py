@@ -31,6 +31,7 @@ from wheelset.vehicle.quantities import (
     Mz_track,
     N,
     cos_gamma,
+    cube,
     delta,
     dr,
     f11,
@@ -44,6 +45,7 @@ from wheelset.vehicle.quantities import (
     ratio,
     rho,
     saturation,
+    shape,
     sin_gamma,
     u2,
     xi_s,
@@ -70,8 +72,7 @@ def wheel_equations(options: ModelOptions) -> tuple[Equation, ...]:
 
 def _contact_equations() -> tuple[Equation, ...]:
     """Eqs. (5)-(7): Hertz. The ellipse enters through its area a b and its ratio k = b/a."""
-    shape = (1 + A / B) / (2 * sp.sqrt(A / B))
-    elastic = sp.Rational(3, 2) * (1 - p.nu**2) / p.E / (A + B)
+    hertz = (1 - p.nu**2) / p.E * N * shape**_EXPONENT / (A + B) * sp.Rational(3, 2)
     return (
         Equation(r, p.r0 + dr, "1", "m", "rolling radius"),
         Equation(gamma, delta + s * phi, "7", "rad", "slope of the contact plane to the track"),
@@ -82,12 +83,10 @@ def _contact_equations() -> tuple[Equation, ...]:
         Equation(ratio, (A / B) ** _EXPONENT, "6", "1", "axis ratio of the contact ellipse, b/a"),
         Equation(N, p.p0 / cos_gamma, "7", "N", "normal force"),
         Equation(
-            patch,
-            (elastic * shape**_EXPONENT * N) ** sp.Rational(2, 3),
-            "6",
-            "m2",
-            "product of the semi-axes of the contact ellipse",
+            shape, (1 + A / B) / (2 * sp.sqrt(A / B)), "6", "1", "shape factor of the ellipse"
         ),
+        Equation(cube, hertz, "6", "m3", "cube of the mean semi-axis, (a b)^(3/2)"),
+        Equation(patch, cube ** sp.Rational(2, 3), "6", "m2", "product of the semi-axes, a b"),
     )
 
 

@@ -30,7 +30,7 @@ _WHEEL = {
     "r": ("r", "", ""), "gamma": (r"\gamma", "", ""),
     "cos_gamma": (r"\cos\gamma", "", ""), "sin_gamma": (r"\sin\gamma", "", ""),
     "A": ("A", "", ""), "B": ("B", "", ""), "k": ("k", "", ""), "N": ("N", "", ""),
-    "ab": ("(ab)", "", ""),
+    "shape": (r"\lambda", "", ""), "ab_cubed": (r"\zeta", "", ""), "ab": ("(ab)", "", ""),
     "C11": ("C", "11", ""), "C22": ("C", "22", ""), "C23": ("C", "23", ""), "C33": ("C", "33", ""),
     "f11": ("f", "11", ""), "f22": ("f", "22", ""), "f23": ("f", "23", ""), "f33": ("f", "33", ""),
     "xi_x": (r"\xi", "x", ""), "xi_y": (r"\xi", "y", ""), "xi_s": (r"\xi", r"\mathrm{sp}", ""),
@@ -91,7 +91,26 @@ class _Printer(LatexPrinter):
 
 def equation_latex(equation: Equation) -> str:
     r"""``symbol = expression`` of an equation, tagged with its number in the paper."""
-    body = f"{symbol_latex(equation.symbol)} = {expression_latex(equation.expression)}"
-    # Sphinx puts a display with a double backslash into a split, where no tag may stand; cr will do.
+    body = _display(symbol_latex(equation.symbol), equation.expression)
+    # Sphinx puts a display with a double backslash into a split, where no tag may stand: use cr.
     one_line = body.replace(r"\\", r"\cr ")
     return rf"{one_line} \tag{{{equation.number}}}" if equation.number else one_line
+
+
+#: Sums of more terms than the first number are broken into lines of the second.
+_TERMS_AT_MOST, _TERMS_A_LINE = 5, 4
+
+
+def _display(name: str, expression: sp.Expr) -> str:
+    """``name = expression``, a long sum on several lines."""
+    terms = expression.args if isinstance(expression, sp.Add) else ()
+    if len(terms) <= _TERMS_AT_MOST:
+        return f"{name} = {expression_latex(expression)}"
+    rows = [
+        sp.Add(*terms[i : i + _TERMS_A_LINE], evaluate=False)
+        for i in range(0, len(terms), _TERMS_A_LINE)
+    ]
+    lines = [expression_latex(row).strip() for row in rows]
+    signed = [line if line.startswith("-") else f"+ {line}" for line in lines[1:]]
+    body = r" \cr & \quad ".join([lines[0], *signed])
+    return rf"\begin{{aligned}} {name} = {{}}& {body} \end{{aligned}}"

@@ -32,6 +32,7 @@ def _real(name: str) -> sp.Symbol:
 dr, delta, rho = map(_real, QUANTITIES)
 r, gamma, cos_gamma, sin_gamma = map(_real, ("r", "gamma", "cos_gamma", "sin_gamma"))
 A, B, ratio, N, patch = map(_real, ("A", "B", "k", "N", "ab"))
+shape, cube = map(_real, ("shape", "ab_cubed"))
 C11, C22, C23, C33 = map(_real, ("C11", "C22", "C23", "C33"))
 f11, f22, f23, f33 = map(_real, ("f11", "f22", "f23", "f33"))
 xi_x, xi_y, xi_s = map(_real, ("xi_x", "xi_y", "xi_s"))
@@ -45,9 +46,9 @@ Fyc, Mzc, Ft = map(_real, ("Fyc", "Mzc", "Ft"))
 ydd, psidd = map(_real, ("ydd", "psidd"))
 
 WHEEL_QUANTITIES = (
-    dr, delta, rho, r, gamma, cos_gamma, sin_gamma, A, B, ratio, N, patch, C11, C22, C23, C33,
-    f11, f22, f23, f33, xi_x, xi_y, xi_s, Kx, Ky, Kz, u2, saturation, Fx, Fy, Mz, Fyn,
-    Fx_track, Fy_track, Mz_track,
+    dr, delta, rho, r, gamma, cos_gamma, sin_gamma, A, B, ratio, N, shape, cube, patch,
+    C11, C22, C23, C33, f11, f22, f23, f33, xi_x, xi_y, xi_s, Kx, Ky, Kz, u2, saturation,
+    Fx, Fy, Mz, Fyn, Fx_track, Fy_track, Mz_track,
 )  # fmt: skip
 
 

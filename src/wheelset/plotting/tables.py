@@ -1,0 +1,107 @@
+"""Tables of the book: HTML without index column, in a box that scrolls on a narrow screen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from html import escape
+from typing import Any
+
+import pandas as pd
+from IPython.display import Markdown
+from pydantic import BaseModel
+
+Format = Callable[[Any], str] | str
+
+_MISSING = "–"
+
+# "dataframe" is the class that the theme leaves unpainted in dark mode.
+#: The box scrolls, not the table: only the box can be reached by keyboard.
+_UNBOXED = "display:table;width:auto;max-width:none"
+
+_NUMBER = ' style="text-align:right;white-space:nowrap"'
+
+
+@dataclass(frozen=True, repr=False)
+class Table:
+    """A frame shown as HTML in a notebook.
+
+    headings: column -> heading, in the order of display; columns not named are left out.
+    formats: column -> a format such as ".2f" or a function to text (HTML: ``raw``).
+    label: what the table is, for readers who do not see it.
+    """
+
+    frame: pd.DataFrame
+    headings: Mapping[str, str]
+    label: str
+    formats: Mapping[str, Format] = field(default_factory=dict)
+    raw: frozenset[str] = frozenset()
+
+    @staticmethod
+    def heading(text: str) -> Markdown:
+        """A bold line between outputs."""
+        return Markdown(f"**{text}**")
+
+    def __repr__(self) -> str:
+        return f"{self.label}: {len(self.frame)} rows"
+
+    def _repr_html_(self) -> str:
+        head = "".join(f'<th scope="col">{text}</th>' for text in self.headings.values())
+        rows = "".join(f"<tr>{self._row(row)}</tr>" for row in self.frame.to_dict("records"))
+        return (
+            f'<div class="table-box" role="region" tabindex="0" aria-label="{escape(self.label)}" '
+            f'style="overflow-x:auto"><table class="dataframe mathjax_process" style="{_UNBOXED}">'
+            f"<thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>"
+        )
+
+    def _row(self, row: Mapping[Any, Any]) -> str:
+        return "".join(self._cell(column, row[column]) for column in self.headings)
+
+    def _cell(self, column: str, value: Any) -> str:
+        text = self._text(column, value)
+        number = isinstance(value, int | float) and not isinstance(value, bool)
+        style = _NUMBER if number else "" if column in self.raw else _width(text)
+        return f"<td{style}>{text if column in self.raw else escape(text)}</td>"
+
+    def _text(self, column: str, value: Any) -> str:
+        if value is None or (isinstance(value, float) and pd.isna(value)):
+            return _MISSING
+        how = self.formats.get(column, "")
+        text = how(value) if callable(how) else format(value, how)
+        return text.replace("-", "−") if _is_number(value) else text
+
+
+def _width(text: str) -> str:
+    """Room for a text: short ones stay nearly on one line, long ones wrap at a readable width."""
+    if text.startswith(r"\("):
+        return ""
+    return f' style="min-width:{34 if len(text) > 60 else min(len(text), 21)}ch"'
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float)
+
+
+def link(text: str, address: str) -> str:
+    """An HTML link for a ``raw`` column."""
+    return f'<a href="{escape(address)}">{escape(text)}</a>'
+
+
+def math(latex: str) -> str:
+    """Inline mathematics for a column."""
+    return rf"\({latex}\)"
+
+
+def exact(value: float) -> str:
+    """A value with as many digits as it takes to read it back."""
+    return repr(int(value)) if value == round(value) and abs(value) < 1e6 else f"{value:.12g}"
+
+
+def parameter_table(parameters: BaseModel) -> Table:
+    """The parameters a page was computed with, and what they mean."""
+    rows = [
+        {"name": name, "value": str(getattr(parameters, name)), "meaning": field.description or ""}
+        for name, field in type(parameters).model_fields.items()
+    ]
+    headings = {"name": "parameter", "value": "value", "meaning": "meaning"}
+    return Table(pd.DataFrame(rows), headings, "Parameters of this page")

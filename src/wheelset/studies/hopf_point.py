@@ -1,0 +1,107 @@
+"""Section 4, first page: the default Hopf point, the eigenvalues around it, Table 3's Hopf points.
+
+Source: Guo, Shi, Luo, Zeng, Nonlinear Dynamics 104 (2021) 989-1005, section 4 and Table 3.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from pydantic import Field
+
+from wheelset.bifurcation.equilibrium import EigenvalueLoci, eigenvalue_loci
+from wheelset.hunting import hunting_system
+from wheelset.studies.hopf_rows import first_hopf, hopf_row, stability_changes
+from wheelset.studies.parameters import WindowParameters
+from wheelset.vehicle import load_vehicle
+
+#: a3 [1/m2] that the paper takes wherever it scans another coefficient in section 5 and Table 3.
+TABLE_3_A3 = 200.0
+
+#: The rows of Table 3: coefficient and its values in SI units.
+TABLE_3_ROWS: tuple[tuple[str, float], ...] = (
+    *(("a1", value) for value in (0.05, 0.15, 0.25, 0.35)),
+    *(("a3", value) for value in (-500.0, 200.0, 500.0, 5000.0)),
+    *(("c1", value) for value in (-200.0, -50.0, 0.0, 200.0)),
+)
+
+_POINTS = {"quick": 60, "paper": 400}
+
+
+class Parameters(WindowParameters):
+    """Parameters of the study of section 4's default Hopf point."""
+
+    vehicle: str = Field(
+        default="guo2021", description="Name of a packaged vehicle or path of a vehicle file."
+    )
+
+
+def default_hopf(p: Parameters) -> pd.DataFrame:
+    """Every stability change of the vehicle in the speed window, one row each.
+
+    Columns: v m/s, frequency rad/s, wavelength m, flc (MATCONT's normalisation), kind, words.
+    """
+    changes = stability_changes(p.vehicle, (), p.window)
+    rows = [{**_numbers(point), "kind": point.kind, "words": point.words} for point in changes]
+    return pd.DataFrame(rows, columns=["v", "frequency", "wavelength", "flc", "kind", "words"])
+
+
+def _numbers(point: object) -> dict[str, float | None]:
+    v, frequency = getattr(point, "value", None), getattr(point, "frequency", None)
+    wavelength = 2 * np.pi * v / frequency if v and frequency else None
+    return {
+        "v": v,
+        "frequency": frequency,
+        "wavelength": wavelength,
+        "flc": getattr(point, "lyapunov", None),
+    }
+
+
+def first_default(p: Parameters, vehicle: str | None = None) -> Any:
+    """Hopf point of lowest speed of a vehicle (default: the study's), as a row of its table."""
+    chosen = p.model_copy(update={"vehicle": vehicle or p.vehicle})
+    return next(default_hopf(chosen).dropna(subset=["frequency"]).itertuples())
+
+
+def loci(p: Parameters) -> EigenvalueLoci:
+    """The four eigenvalues [1/s] of straight running over the speed window, as curves."""
+    speeds = np.linspace(p.v_min, p.v_max, _POINTS[p.resolution])
+    return eigenvalue_loci(hunting_system(load_vehicle(p.vehicle)), "v", speeds)
+
+
+def eigenvalue_frame(curves: EigenvalueLoci) -> pd.DataFrame:
+    """Loci in long form: v m/s, locus 1..n, re 1/s, im 1/s."""
+    points, n = curves.eigenvalues.shape
+    return pd.DataFrame(
+        {
+            "v": np.repeat(curves.values, n),
+            "locus": np.tile(np.arange(1, n + 1), points),
+            "re": curves.eigenvalues.real.ravel(),
+            "im": curves.eigenvalues.imag.ravel(),
+        }
+    )
+
+
+def table_3_hopf(p: Parameters, vehicle: str | None = None) -> pd.DataFrame:
+    """Table 3's Hopf points for a vehicle (default: the study's), one row a row of the table.
+
+    Columns: vehicle, parameter, value (SI), v m/s, frequency rad/s, flc, kind, words.
+    """
+    name = vehicle or p.vehicle
+    return pd.DataFrame([_table_3_row(name, *row, p.window) for row in TABLE_3_ROWS])
+
+
+def _table_3_row(
+    vehicle: str, parameter: str, value: float, window: tuple[float, float]
+) -> dict[str, object]:
+    changes = stability_changes(vehicle, table_3_overrides(parameter, value), window)
+    place = {"vehicle": vehicle, "parameter": parameter, "value": value}
+    return {**place, **hopf_row(first_hopf(changes), window)}
+
+
+def table_3_overrides(parameter: str, value: float) -> tuple[str, ...]:
+    """Overrides that make the default vehicle a row of Table 3: a3 = 200 unless a3 is scanned."""
+    fixed = () if parameter == "a3" else (f"a3={TABLE_3_A3}",)
+    return (*fixed, f"{parameter}={value}")

@@ -1,0 +1,48 @@
+"""What the parameters of all studies have in common."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+#: quick: coarse grids, for a look and for tests; paper: the resolution of the book.
+Resolution = Literal["quick", "paper"]
+
+#: A speed in m/s that a railway vehicle can be asked about.
+Speed = Annotated[float, Field(gt=0.0, le=1000.0)]
+
+
+class StudyParameters(BaseModel):
+    """Parameters of a study: unknown names are refused, values are in SI units."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+    resolution: Resolution = Field(
+        default="paper", description="Fineness of grids: quick (coarse) or paper."
+    )
+
+
+class WindowParameters(StudyParameters):
+    """Parameters of a study that looks for instabilities between two speeds."""
+
+    v_min: Speed = Field(
+        default=10.0, description="Lower end of the speed window, m/s; 0 < v_min < v_max."
+    )
+    v_max: Speed = Field(
+        default=200.0, description="Upper end of the speed window, m/s; v_min < v_max <= 1000."
+    )
+
+    @model_validator(mode="after")
+    def _window_is_ordered(self) -> Self:
+        if self.v_min >= self.v_max:
+            raise ValueError(
+                f"v_min = {self.v_min:g} m/s must be below v_max = {self.v_max:g} m/s; "
+                "lower v_min or raise v_max"
+            )
+        return self
+
+    @property
+    def window(self) -> tuple[float, float]:
+        """(v_min, v_max) in m/s."""
+        return self.v_min, self.v_max

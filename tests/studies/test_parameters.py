@@ -1,0 +1,60 @@
+"""Every study's parameters: strict, described, with units, and equal to its notebook's cell."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import json
+from pathlib import Path
+
+import pytest
+from pydantic import ValidationError
+
+NOTEBOOKS = sorted((Path(__file__).parents[2] / "notebooks").glob("*.ipynb"))
+STUDIES = {
+    path.stem: study
+    for path in NOTEBOOKS
+    if (study := json.loads(path.read_text("utf-8"))["metadata"]["wheelset"].get("study"))
+}
+
+
+def parameters_of(study):
+    return importlib.import_module(f"wheelset.studies.{study}").Parameters
+
+
+def annotated_cell(stem):
+    (path,) = (path for path in NOTEBOOKS if path.stem == stem)
+    cells = json.loads(path.read_text("utf-8"))["cells"]
+    (cell,) = (c for c in cells if "parameters" in c["metadata"].get("tags", []))
+    return ast.parse("".join(cell["source"])).body
+
+
+@pytest.mark.parametrize(("stem", "study"), STUDIES.items())
+def test_cell_and_model_have_the_same_names_and_defaults(stem, study):
+    cell = {line.target.id: ast.literal_eval(line.value) for line in annotated_cell(stem)}
+    assert cell == parameters_of(study)().model_dump()
+
+
+@pytest.mark.parametrize("study", STUDIES.values())
+def test_unknown_names_are_refused(study):
+    with pytest.raises(ValidationError, match="Extra inputs"):
+        parameters_of(study)(velocity=40.0)
+
+
+@pytest.mark.parametrize("study", STUDIES.values())
+def test_every_field_is_described_and_every_number_has_a_unit(study):
+    for name, field in parameters_of(study).model_fields.items():
+        assert field.description, name
+        if field.annotation is float:
+            assert any(unit in field.description for unit in ("m/s", "m;", "s;")), name
+
+
+def test_window_has_to_be_ordered():
+    with pytest.raises(ValidationError, match="v_min = 60 m/s must be below v_max = 50 m/s"):
+        parameters_of("hopf_point")(v_min=60, v_max=50)
+
+
+@pytest.mark.parametrize("speed", [0.0, -3.0, float("nan"), float("inf"), 2000.0])
+def test_impossible_speeds_are_refused(speed):
+    with pytest.raises(ValidationError, match="speed"):
+        parameters_of("flange_models")(speed=speed)
