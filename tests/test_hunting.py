@@ -12,6 +12,7 @@ from scipy.interpolate import CubicSpline
 
 from tests.vehicle.readings import M1, reading
 from wheelset.bifurcation.hopf import hopf_point, instabilities
+from wheelset.bifurcation.outcomes import NotFinite
 from wheelset.hunting import hunting_system
 from wheelset.vehicle import load_vehicle
 from wheelset.vehicle.geometry import ExpandedGeometry
@@ -150,6 +151,16 @@ class TestExpandedGeometry:
         hopf = hopf_point(hunting_system(reading(), geometry), "v", 50.0)
         assert hopf.value == pytest.approx(51.70606841, abs=1e-7)
         assert hopf.lyapunov == pytest.approx(-23.255255, rel=1e-4)
+
+    def test_beyond_the_samples_is_a_named_outcome(self, polynomials_expanded):
+        def short(f):
+            return Expanded(lambda y, k: np.where(np.abs(y) < 5e-3, f.derivatives(y, k), np.nan))
+
+        functions = dict(polynomials_expanded.functions)
+        functions["delta_left"] = short(functions["delta_left"])
+        system = hunting_system(reading(), ExpandedGeometry(functions))
+        with pytest.raises(NotFinite, match="sampled function delta_left, outside its range at y"):
+            system.rhs([6e-3, 0, 0, 0])
 
     def test_missing_functions_are_named(self):
         with pytest.raises(ValueError, match="lacks delta_left"):

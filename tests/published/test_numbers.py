@@ -8,7 +8,6 @@ import pandas as pd
 import pytest
 
 from wheelset.published import numbers
-from wheelset.published.errata import ERRATA
 from wheelset.published.figures import PANELS, panel
 from wheelset.published.items import ITEMS, item_frame, items_of
 from wheelset.published.rules import RULES
@@ -98,8 +97,3 @@ def test_panels():
     assert len({p.label for p in PANELS}) == len(PANELS)
     with pytest.raises(KeyError, match=r"Fig\. 7"):
         panel(7, "z")
-
-
-def test_errata_are_complete_sentences_of_four_parts():
-    assert len(ERRATA) >= 10
-    assert all(s.place and s.printed and s.meaning and 989 <= s.page <= 1005 for s in ERRATA)

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from wheelset.bifurcation import arrays, codegen, domain, multidual, regions
 from wheelset.bifurcation.field import VectorField, vector_field
+from wheelset.bifurcation.outcomes import NotFinite, as_tuple
 from wheelset.bifurcation.tape import Tape, record
 
 Array = NDArray[np.float64]
@@ -166,6 +167,10 @@ class System:
         sampled = np.empty((len(points), len(self.tape.sampled), order + 1))
         for i, (name, state) in enumerate(self.tape.sampled):
             sampled[:, i] = self.functions[name].taylor(points[:, state], order)
+            outside = ~np.isfinite(sampled[:, i]).all(axis=-1)
+            if outside.any():
+                x = as_tuple(points[np.argmax(outside)])
+                raise NotFinite(f"sampled function {name}, outside its range", x, self.state_names)
         return sampled
 
     # --- derivatives of any order --------------------------------------------------------------
