@@ -20,7 +20,7 @@ quick: $(READY)  ## a coarse preview of the book, kept apart from it
 	@$(BIN)/wheelset book --quick
 
 test: $(READY)  ## run the tests of the package
-	$(BIN)/python -m pytest --ignore=tests/book
+	$(BIN)/python -m pytest --ignore=tests/book --numprocesses=auto --dist=worksteal
 
 check-book: $(READY)  ## check the built book: links, figures, and every page in a browser
 	$(BIN)/python -m pytest tests/book
@@ -61,6 +61,6 @@ $(READY): pyproject.toml requirements.lock
 	fi; \
 	echo "installing the locked environment into .venv"; \
 	$(BIN)/uv --version >/dev/null 2>&1 || $(BIN)/python -m pip install --quiet --disable-pip-version-check uv; \
-	$(BIN)/uv pip sync --python $(BIN)/python --require-hashes requirements.lock; \
+	$(BIN)/uv pip sync --python $(BIN)/python --compile-bytecode --require-hashes requirements.lock; \
 	$(BIN)/uv pip install --python $(BIN)/python --quiet --no-deps --no-build-isolation --editable .; \
 	touch $@

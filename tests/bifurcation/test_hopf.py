@@ -183,6 +183,14 @@ class TestFailures:
         with pytest.raises(NoConvergence, match="no oscillating pair"):
             hopf_point(system, "c", 1.0)
 
+    def test_a_pair_that_never_reaches_the_axis(self):
+        damped = System.from_function(
+            lambda x, p: [x[1], -p[0] * x[0] - x[1]], ("x", "xd"), {"stiffness": 4.0}
+        )
+        with pytest.raises(NoConvergence, match="Hopf point in stiffness near 4") as failure:
+            hopf_point(damped, "stiffness", 4.0)
+        assert failure.value.residuals[:2] == pytest.approx((0.5, 0.5))
+
     @pytest.mark.parametrize("window", [(2.0, 1.0), (1.0, float("nan")), (1.0, 1.0)])
     def test_bad_window(self, window):
         with pytest.raises(ValueError, match="needs two finite numbers"):

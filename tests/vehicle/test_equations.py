@@ -17,7 +17,8 @@ from tests.vehicle.readings import M1, OPTIONS, reading
 from wheelset.bifurcation.outcomes import DomainLeft, NumericalOutcome
 from wheelset.hunting import hunting_system
 from wheelset.vehicle.flange import FLANGE_LAWS, flange_force
-from wheelset.vehicle.options import ModelOptions
+from wheelset.vehicle.options import ModelOptions, allowed_values
+from wheelset.vehicle.parameters import BY_NAME
 
 SCALE = np.array([4e-3, 4e-3, 0.2, 0.2])
 ASYMMETRIC = {
@@ -216,6 +217,12 @@ class TestFlangeLaws:
 
     def force(self, law, y):
         return flange_force(law, y, M1)
+
+    def test_registry_options_and_coefficients_name_the_same_laws(self):
+        assert set(allowed_values("flange_law")) == set(FLANGE_LAWS)
+        for law in FLANGE_LAWS.values():
+            for name in law.parameters:
+                assert BY_NAME[name].needed_by == ("flange_law", law.name)
 
     @pytest.mark.parametrize("law", FLANGE_LAWS.values(), ids=str)
     def test_odd(self, law):

@@ -19,8 +19,9 @@ STEP_TOLERANCE = 1e-12, 1e-14
 MAX_ITERATIONS = 30
 
 
-def equilibrium(system: System, p: Array, guess: ArrayLike | None = None) -> Array:
-    """The equilibrium (n,) Newton's method reaches from ``guess`` (default: the origin).
+def equilibrium(system: System, p: Array, guess: ArrayLike | None = None) -> tuple[Array, Array]:
+    """The equilibrium (n,) Newton's method reaches from ``guess`` (default: the origin), and the
+    Jacobian (n, n) there.
 
     Raises NoConvergence with the residual history, or the field's own outcome.
     """
@@ -30,12 +31,12 @@ def equilibrium(system: System, p: Array, guess: ArrayLike | None = None) -> Arr
         f, jacobian = system.evaluate(x, p)
         residuals.append(float(np.linalg.norm(f)))
         if residuals[-1] == 0.0:
-            return x
+            return x, jacobian
         step = _solve(jacobian, -f, residuals)
         x = x + step
         relative, absolute = STEP_TOLERANCE
         if np.all(np.abs(step) <= relative * np.abs(x) + absolute):
-            return x
+            return x, system.jacobian(x, p)
     raise NoConvergence("Newton's method for an equilibrium", tuple(residuals))
 
 
@@ -53,23 +54,27 @@ class EquilibriumPath:
     system: System
     parameter: str
     guess: Array
-    known: dict[float, Array] = field(default_factory=dict)
+    known: dict[float, tuple[Array, Array]] = field(default_factory=dict)
 
     def p(self, value: float) -> Array:
         """Parameter vector with the path's parameter at ``value``."""
         return self.system.p(**{self.parameter: value})
 
-    def state(self, value: float) -> Array:
-        """The equilibrium at a parameter value."""
+    def at(self, value: float) -> tuple[Array, Array]:
+        """The equilibrium (n,) and its Jacobian (n, n) at a parameter value."""
         if value not in self.known:
             near = min(self.known, key=lambda v: abs(v - value), default=None)
-            start = self.guess if near is None else self.known[near]
+            start = self.guess if near is None else self.known[near][0]
             self.known[value] = equilibrium(self.system, self.p(value), start)
         return self.known[value]
 
+    def state(self, value: float) -> Array:
+        """The equilibrium (n,)."""
+        return self.at(value)[0]
+
     def jacobian(self, value: float) -> Array:
-        """df/dx at the equilibrium."""
-        return self.system.jacobian(self.state(value), self.p(value))
+        """df/dx (n, n) at the equilibrium."""
+        return self.at(value)[1]
 
     def eigenvalues(self, value: float) -> NDArray[Any]:
         """Eigenvalues of the Jacobian at the equilibrium, complex, shape (n,)."""

@@ -23,8 +23,12 @@ Array = NDArray[np.float64]
 DEGENERATE = 1e-9
 MAX_ITERATIONS = 30
 
-#: Newton's error after a step is of the order of the step squared: one this small ends it.
-QUADRATIC = 1e-9
+#: First step of the secant method, and the step that ends it, relative to the parameter. The
+#: error left is of the order of the last two steps' product.
+SECANT_START, SECANT_END = 1e-3, 1e-11
+
+#: A real part this small relative to its eigenvalue is zero to rounding.
+ROUNDING = 1e-15
 
 
 @dataclass(frozen=True)
@@ -166,7 +170,7 @@ def hopf_point(
     frequency: float | None = None,
     guess: ArrayLike | None = None,
 ) -> HopfPoint:
-    """The Hopf point beside a parameter value, by Newton's method on the pair's real part.
+    """The Hopf point beside a parameter value, by the secant method on the pair's real part.
 
     frequency: of the pair to follow [rad/s]; default: the oscillating pair nearest to the
     imaginary axis. Raises NoConvergence with the history of real parts.
@@ -206,38 +210,35 @@ def _located(path: EquilibriumPath, near: float, frequency: float) -> HopfPoint:
     )  # fmt: skip
 
 
-def _to_axis(path: EquilibriumPath, value: float, frequency: float) -> tuple[float, float]:
-    """Newton's method for Re(eigenvalue) = 0; returns the parameter and the frequency."""
-    history: list[float] = []
+def _to_axis(path: EquilibriumPath, start: float, frequency: float) -> tuple[float, float]:
+    """The secant method for Re(eigenvalue) = 0; returns the parameter and the frequency."""
+    value, size = start, abs(start) + SECANT_START
+    old = _nearest(path.eigenvalues(value), 1j * frequency)
+    step, history = SECANT_START * size, [abs(old.real)]
     for _ in range(MAX_ITERATIONS):
-        eigenvalue, slope = _eigenvalue_slope(path, value, 1j * frequency)
-        history.append(abs(eigenvalue.real))
-        step = eigenvalue.real / slope.real
-        value, frequency = value - step, float(eigenvalue.imag)
-        if abs(step) <= QUADRATIC * abs(value):
-            return value, frequency
-    raise NoConvergence(f"Hopf point in {path.parameter} near {value:.6g}", tuple(history))
+        value += step
+        eigenvalues = path.eigenvalues(value)
+        new = _nearest(eigenvalues, 1j * old.imag)
+        history.append(abs(new.real))
+        if abs(new.imag) <= _tiny(eigenvalues):  # the pair has become real
+            break
+        if abs(step) <= SECANT_END * abs(value) or abs(new.real) <= ROUNDING * abs(new):
+            return value, new.imag
+        if new.real == old.real:
+            break
+        secant = step * new.real / (old.real - new.real)
+        step, old = max(-size / 2, min(size / 2, secant)), new
+    raise NoConvergence(f"Hopf point in {path.parameter} near {start:.6g}", tuple(history))
 
 
-def _eigenvalue_slope(
-    path: EquilibriumPath, value: float, near: complex
-) -> tuple[complex, complex]:
-    """The eigenvalue nearest to ``near`` and its exact derivative along the path.
-
-    d(lambda) = <p, D2f[q, dx + d(parameter)]>, dx = -A^-1 f_parameter, with <p, q> = 1.
-    """
-    system, x, p = path.system, path.state(value), path.p(value)
-    pair = critical_pair(path.jacobian(value), near.imag)
-    unit = np.zeros(system.n + len(p))
-    unit[system.n + system.index(path.parameter)] = 1.0
-    unit[: system.n] = -np.linalg.solve(pair.jacobian, system.form(x, p, unit))
-    slope = np.vdot(pair.p, system.form(x, p, pair.q, unit))
-    return pair.eigenvalue, complex(slope)
+def _nearest(eigenvalues: NDArray[Any], target: complex) -> complex:
+    return complex(eigenvalues[np.argmin(np.abs(eigenvalues - target))])
 
 
 def _criticality(path: EquilibriumPath, value: float, frequency: float) -> tuple[float | None, str]:
+    pair = critical_pair(path.jacobian(value), frequency)
     try:
-        return first_lyapunov(path.system, path.state(value), path.p(value), frequency), ""
+        return first_lyapunov(path.system, path.state(value), path.p(value), pair), ""
     except DomainLeft as left:
         return None, str(left)
 

@@ -50,14 +50,13 @@ def _inverse(vectors: NDArray[Any]) -> NDArray[Any]:
         raise NoConvergence("the Jacobian has no full set of eigenvectors", ()) from None
 
 
-def first_lyapunov(system: System, x: Array, p: Array, frequency: float) -> float:
+def first_lyapunov(system: System, x: Array, p: Array, pair: CriticalPair) -> float:
     """FLC = 1/2 Re <p, C(q,q,q-) + 2 B(q,h11) + B(q-,h20)> at a Hopf point (x, p).
 
     With h11 = -A^-1 B(q,q-) and h20 = (2iw - A)^-1 B(q,q). It is MATCONT's number: not divided by
     w (Kuznetsov's l1 = FLC / w), and dependent on the units of the state, here SI.
     Kuznetsov, Elements of Applied Bifurcation Theory, Eq. (5.39).
     """
-    pair = critical_pair(system.jacobian(x, p), frequency)
     q, conj, identity = pair.q, pair.q.conj(), np.eye(system.n)
     h11 = -np.linalg.solve(pair.jacobian, system.form(x, p, q, conj))
     h20 = np.linalg.solve(2j * pair.frequency * identity - pair.jacobian, system.form(x, p, q, q))

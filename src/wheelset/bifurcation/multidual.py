@@ -18,29 +18,37 @@ Array = NDArray[Any]
 
 
 @njit(cache=True, error_model="numpy")
-def _multiply(a: Array, b: Array, out: Array) -> None:
-    """out = a b: the coefficient of a subset is the sum over its splittings in two."""
-    for whole in range(out.size):
-        total = a[0] * b[whole]
+def _multiply(slots: Array, a: int, b: int, out: int) -> None:
+    """Slot out = a b: the coefficient of a subset is the sum over its splittings in two."""
+    for whole in range(slots.shape[1]):
+        total = slots[a, 0] * slots[b, whole]
         part = whole
         while part > 0:
-            total += a[part] * b[whole ^ part]
+            total += slots[a, part] * slots[b, whole ^ part]
             part = (part - 1) & whole
-        out[whole] = total
+        slots[out, whole] = total
 
 
 @njit(cache=True, error_model="numpy")
-def _compose(taylor: Array, a: Array, order: int, work: Array, out: Array) -> None:
-    """out = sum_j taylor[j] (a - a[0])^j, j = 0..order, by Horner's rule."""
-    nilpotent = work[0]
-    nilpotent[:] = a
-    nilpotent[0] = 0.0
-    out[:] = 0.0
-    out[0] = taylor[order]
+def _compose(slots: Array, taylor: Array, a: int, order: int, out: int) -> None:
+    """Slot out = sum_j taylor[j] n^j, j = 0..order, n = slot a less its value, by Horner's rule.
+
+    From the last subset to the first, so that the product by n (which has no coefficient of the
+    empty set) needs no second array.
+    """
+    size = slots.shape[1]
+    for part in range(size):
+        slots[out, part] = 0.0
+    slots[out, 0] = taylor[order]
     for j in range(order - 1, -1, -1):
-        _multiply(out, nilpotent, work[1])
-        out[:] = work[1]
-        out[0] += taylor[j]
+        for whole in range(size - 1, 0, -1):
+            total = slots[a, whole] * slots[out, 0]
+            part = (whole - 1) & whole
+            while part > 0:
+                total += slots[a, part] * slots[out, whole ^ part]
+                part = (part - 1) & whole
+            slots[out, whole] = total
+        slots[out, 0] = taylor[j]
 
 
 @njit(cache=True, error_model="numpy")
@@ -78,7 +86,6 @@ def propagate(  # noqa: C901  (one branch an elementary operation)
     size = 1 << order
     slots = np.zeros((inputs + code.shape[0], size), dtype=directions.dtype)
     still = np.ones(slots.shape[0], dtype=np.bool_)  # no dependence on any direction
-    work = np.zeros((2, size), dtype=directions.dtype)
     taylor = np.zeros(max(order, 1) + 1, dtype=directions.dtype)
     for i in range(inputs):
         slots[i, 0] = base[i]
@@ -98,7 +105,7 @@ def propagate(  # noqa: C901  (one branch an elementary operation)
             for part in range(count):
                 slots[here, part] = slots[a, part] + slots[b, part]
         elif kind == 2 and not (still[a] or still[b]):
-            _multiply(slots[a], slots[b], slots[here])
+            _multiply(slots, a, b, here)
         elif kind == 2:
             number, varying = (a, b) if still[a] else (b, a)
             for part in range(count):
@@ -114,5 +121,5 @@ def propagate(  # noqa: C901  (one branch an elementary operation)
                 taylor[: reach + 1] = sampled[b, : reach + 1]
             else:
                 _taylor(kind, slots[a, 0], k, reach, taylor)
-            _compose(taylor, slots[a], reach, work, slots[here])
+            _compose(slots, taylor, a, reach, here)
     return slots

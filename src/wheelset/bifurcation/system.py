@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import dataclasses
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -135,16 +136,19 @@ class System:
         """
         states = np.asarray(x, dtype=np.float64)
         points = np.ascontiguousarray(states.reshape(-1, self.n))
-        names = self.state_names if by is None else tuple(by)
-        f, jacobian = np.empty_like(points), np.empty((*points.shape, len(names)))
-        for p_region, chosen in regions.split(self.field, points, self._vector(p)):
-            f[chosen], jacobian[chosen] = self._smooth(points[chosen], p_region, names)
-        return f.reshape(states.shape), jacobian.reshape((*states.shape, len(names)))
+        slots = tuple(range(self.n)) if by is None else tuple(map(self._slot, by))
+        if self.field.switch is None:
+            f, jacobian = self._smooth(points, self._vector(p), slots)
+        else:
+            f, jacobian = np.empty_like(points), np.empty((*points.shape, len(slots)))
+            for p_region, chosen in regions.split(self.field, points, self._vector(p)):
+                f[chosen], jacobian[chosen] = self._smooth(points[chosen], p_region, slots)
+        return f.reshape(states.shape), jacobian.reshape((*states.shape, len(slots)))
 
-    def _smooth(self, points: Array, p: Array, names: Sequence[str]) -> tuple[Array, Array]:
-        f, jacobian = np.empty_like(points), np.empty((*points.shape, len(names)))
+    def _smooth(self, points: Array, p: Array, slots: tuple[int, ...]) -> tuple[Array, Array]:
+        f, jacobian = np.empty_like(points), np.empty((*points.shape, len(slots)))
         status = np.empty(len(points), dtype=np.int64)
-        kernel = codegen.kernel(self.tape, tuple(self._slot(name) for name in names))
+        kernel = codegen.kernel(self.tape, slots)
         kernel(points, p, self._sampled(points, 1), f, jacobian, status)
         if status.any():
             self._raise_outcome(points[np.flatnonzero(status)[0]], p)
@@ -184,21 +188,23 @@ class System:
         state = np.asarray(x, dtype=np.float64)
         [(p_region, _)] = regions.split(self.field, state[np.newaxis], self._vector(p))
         rows = [np.asarray(v) for v in directions]
-        packed = np.zeros((len(rows), self.n + len(p_region)), dtype=np.result_type(*rows, 1.0))
-        for row, v in zip(packed, rows, strict=True):
-            row[: len(v)] = v
-        return self._propagate(state, p_region, packed)[list(self.tape.outputs), -1]
+        kind = np.complex128 if any(row.dtype.kind == "c" for row in rows) else np.float64
+        packed = np.zeros((len(rows), self.n + len(p_region)), dtype=kind)
+        for i, row in enumerate(rows):
+            packed[i, : len(row)] = row
+        return self._propagate(state, p_region, packed)[:, -1]
 
     def _propagate(self, x: Array, p: Array, directions: NDArray[Any]) -> NDArray[Any]:
-        order = len(directions)
-        code, constants = self.tape.packed
+        """All coefficients of f along the directions, shape (n, 2^k)."""
+        order, (code, constants) = len(directions), self.tape.packed
         sampled = self._sampled(x[np.newaxis], max(order, 1))[0]
         slots = multidual.propagate(code, constants, np.concatenate([x, p]), directions, sampled)
         domain.check_orders(self.tape, slots[:, 0].real, order, x, self.state_names)
-        finite = np.isfinite(slots)
-        if not finite[list(self.tape.outputs)].all():
-            raise domain.not_finite(self.tape, ~np.asarray(finite.all(axis=1)), x, self.state_names)
-        return slots
+        out = slots[self.tape.output_slots]
+        if not cmath.isfinite(out.sum()):
+            bad = ~np.asarray(np.isfinite(slots).all(axis=1))
+            raise domain.not_finite(self.tape, bad, x, self.state_names)
+        return out
 
     # --- named quantities on arrays ------------------------------------------------------------
 

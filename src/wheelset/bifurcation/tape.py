@@ -77,6 +77,11 @@ class Tape:
             np.array([o.k for o in self.operations], dtype=np.float64),
         )
 
+    @cached_property
+    def output_slots(self) -> NDArray[np.int64]:
+        """``outputs`` as an index array."""
+        return np.array(self.outputs, dtype=np.int64)
+
     def name_of(self, slot: int) -> str:
         """The first named quantity at or after a slot: for messages."""
         later = [(s, name) for name, s in self.named.items() if s >= slot]

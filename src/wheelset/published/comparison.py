@@ -35,6 +35,12 @@ class Judgement:
             raise ValueError(f"a judgement ({self.verdict}) needs a reason")
 
 
+def number_or_reason(value: float | None, reason: str) -> float | Judgement:
+    """A computed number, or the reason why there is none."""
+    missing = value is None or math.isnan(value)
+    return Judgement(NOT_YET, reason) if missing else float(value or 0.0)
+
+
 Computed = Mapping[tuple[str, str], float | Judgement | None]
 
 

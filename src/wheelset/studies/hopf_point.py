@@ -5,7 +5,7 @@ Source: Guo, Shi, Luo, Zeng, Nonlinear Dynamics 104 (2021) 989-1005, section 4 a
 
 from __future__ import annotations
 
-from typing import Any
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -59,10 +59,12 @@ def _numbers(point: object) -> dict[str, float | None]:
     }
 
 
-def first_default(p: Parameters, vehicle: str | None = None) -> Any:
-    """Hopf point of lowest speed of a vehicle (default: the study's), as a row of its table."""
-    chosen = p.model_copy(update={"vehicle": vehicle or p.vehicle})
-    return next(default_hopf(chosen).dropna(subset=["frequency"]).itertuples())
+def first_default(p: Parameters, vehicle: str | None = None) -> SimpleNamespace:
+    """Hopf point of lowest speed of a vehicle (default: the study's): v, frequency, flc, kind,
+    words; None for the numbers, and words that say so, where the window holds none.
+    """
+    changes = stability_changes(vehicle or p.vehicle, (), p.window)
+    return SimpleNamespace(**hopf_row(first_hopf(changes), p.window))
 
 
 def loci(p: Parameters) -> EigenvalueLoci:
