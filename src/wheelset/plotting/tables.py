@@ -29,6 +29,7 @@ class Table:
     headings: column -> heading, in the order of display; columns not named are left out.
     formats: column -> a format such as ".2f" or a function to text (HTML: ``raw``).
     label: what the table is, for readers who do not see it.
+    note: column of long texts, each shown across the table under its row where it is not empty.
     """
 
     frame: pd.DataFrame
@@ -36,6 +37,7 @@ class Table:
     label: str
     formats: Mapping[str, Format] = field(default_factory=dict)
     raw: frozenset[str] = frozenset()
+    note: str = ""
 
     @staticmethod
     def heading(text: str) -> Markdown:
@@ -47,15 +49,22 @@ class Table:
 
     def _repr_html_(self) -> str:
         head = "".join(f'<th scope="col">{text}</th>' for text in self.headings.values())
-        rows = "".join(f"<tr>{self._row(row)}</tr>" for row in self.frame.to_dict("records"))
+        rows = "".join(self._rows(row) for row in self.frame.to_dict("records"))
         return (
             f'<div class="table-box" role="region" tabindex="0" aria-label="{escape(self.label)}" '
             f'style="overflow-x:auto"><table class="dataframe mathjax_process" style="{_UNBOXED}">'
             f"<thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>"
         )
 
-    def _row(self, row: Mapping[Any, Any]) -> str:
-        return "".join(self._cell(column, row[column]) for column in self.headings)
+    def _rows(self, row: Mapping[Any, Any]) -> str:
+        cells = "".join(self._cell(column, row[column]) for column in self.headings)
+        note = row[self.note] if self.note else ""
+        if not isinstance(note, str) or not note:
+            return f"<tr>{cells}</tr>"
+        return (
+            f'<tr class="noted">{cells}</tr>'
+            f'<tr class="note"><td colspan="{len(self.headings)}">{escape(note)}</td></tr>'
+        )
 
     def _cell(self, column: str, value: Any) -> str:
         text = self._text(column, value)
@@ -72,10 +81,11 @@ class Table:
 
 
 def _width(text: str) -> str:
-    """Room for a text: short ones stay nearly on one line, long ones wrap at a readable width."""
+    """Room for a text: short ones stay on one line, longer ones wrap at a readable width."""
     if text.startswith(r"\("):
         return ""
-    return f' style="min-width:{34 if len(text) > 60 else min(len(text), 21)}ch"'
+    least = 34 if len(text) > 60 else min(len(text), 16)
+    return f' style="min-width:{least}ch;max-width:{max(least, 24)}ch"'
 
 
 def _is_number(value: Any) -> bool:

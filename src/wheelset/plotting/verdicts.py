@@ -42,20 +42,19 @@ _HEADINGS = {
     "computed": "here",
     "difference": "difference",
     "verdict": "verdict",
-    "reason": "reason",
 }
 
 
 _STATUS = {
     name: {**_HEADINGS, "page": "page"}[name]
     for name in (
-        "item", "quantity", "verdict", "page", "published", "computed", "difference", "reason",
+        "item", "quantity", "verdict", "page", "published", "computed", "difference",
     )
 }  # fmt: skip
 
 
 def comparison_table(comparison: pd.DataFrame, label: str, pages: bool = False) -> Table:
-    """A comparison (columns of ``published.comparison``) with coloured verdicts.
+    """A comparison (columns of ``published.comparison``) with coloured verdicts, reasons below.
 
     pages: put the verdict first and link the page named in the column ``page``.
     """
@@ -68,7 +67,7 @@ def comparison_table(comparison: pd.DataFrame, label: str, pages: bool = False) 
         "verdict": _verdict,
         "page": _chapter,
     }
-    return Table(comparison, headings, label, formats, frozenset({"verdict", "page"}))
+    return Table(comparison, headings, label, formats, frozenset({"verdict", "page"}), "reason")
 
 
 def _without_empty(headings: dict[str, str], comparison: pd.DataFrame) -> dict[str, str]:
@@ -78,14 +77,14 @@ def _without_empty(headings: dict[str, str], comparison: pd.DataFrame) -> dict[s
 
 def _chapter(page: str) -> str:
     """A link to a page, named by the number it begins with."""
-    return link(f"chapter\u00a0{page.split('_')[0]}", f"{page}.html") if page else ""
+    return link(f"ch.\u00a0{page.split('_')[0]}", f"{page}.html") if page else ""
 
 
 def number(value: float) -> str:
-    """Two decimals for everyday numbers, six digits for very small or large ones."""
-    if value == 0 or 0.01 <= abs(value) < 1e5:
+    """Two decimals for everyday numbers, significant digits for small or large ones."""
+    if 1 <= abs(value) < 1e5 or value == 0:
         return f"{value:.2f}" if value != round(value) or abs(value) < 100 else f"{value:.0f}"
-    return f"{value:.6g}"
+    return f"{value:.4g}" if abs(value) < 1 else f"{value:.6g}"
 
 
 def signed(value: float) -> str:
