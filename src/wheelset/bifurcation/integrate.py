@@ -25,7 +25,7 @@ from wheelset.bifurcation.endings import (
     SettledToEquilibrium,
     SolverFailed,
 )
-from wheelset.bifurcation.events import Event, EventSpec, watches
+from wheelset.bifurcation.events import Event, EventSpec
 from wheelset.bifurcation.outcomes import DomainLeft, NotFinite
 from wheelset.bifurcation.plan import (
     Plan,
@@ -41,6 +41,7 @@ from wheelset.bifurcation.step import Step
 from wheelset.bifurcation.stepping import smooth_steps
 from wheelset.bifurcation.system import System
 from wheelset.bifurcation.trajectory import Trajectory
+from wheelset.bifurcation.watching import watches
 
 Array = NDArray[np.float64]
 Progress = Callable[[float], None]
