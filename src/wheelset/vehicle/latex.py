@@ -12,6 +12,7 @@ from sympy.printing.latex import LatexPrinter
 from wheelset.vehicle.equations import Equation
 from wheelset.vehicle.flange import region
 from wheelset.vehicle.parameters import BY_NAME
+from wheelset.vehicle.symbols import STATE
 
 _STATE = {
     "y": "y", "psi": r"\psi", "yd": r"\dot y", "psid": r"\dot\psi", "v": "v", "s": "s",
@@ -74,12 +75,33 @@ def _with_side(name: str, side: str) -> str:
 def expression_latex(expression: sp.Expr) -> str:
     """LaTeX of an expression in the model's symbols, terms in the order they are stored."""
     names = {symbol: symbol_latex(symbol) for symbol in expression.free_symbols}
-    printer = _Printer({"symbol_names": names, "order": "none", "mul_symbol": r" \, "})
+    printer = _Printer({"symbol_names": names, "mul_symbol": r" \, "})
     return str(printer.doprint(expression))
 
 
+def ordered_terms(expression: sp.Expr) -> list[sp.Expr]:
+    """Terms of a sum by their degree in the state; among equals positive ones first, then by what
+    they are divided by.
+    """
+
+    def rank(term: sp.Expr) -> tuple[int, bool, int, str]:
+        powers = {x: sp.sympify(power) for x, power in term.as_powers_dict().items()}
+        whole = {x: int(power) for x, power in powers.items() if power.is_Integer}
+        degree = sum(power for x, power in whole.items() if x in STATE)
+        under = -sum(power for power in whole.values() if power < 0)
+        return degree, term.could_extract_minus_sign(), under, str(term)
+
+    return sorted(sp.Add.make_args(expression), key=rank)
+
+
 class _Printer(LatexPrinter):
-    """sympy's printer, but a power of a cosine keeps its bracket: (cos gamma)^n."""
+    """sympy's printer, but a sum goes by rising powers of the state, its first term positive, and
+    a power of a cosine keeps its bracket: (cos gamma)^n.
+    """
+
+    def _as_ordered_terms(self, expr: sp.Expr, order: object = None) -> list[sp.Expr]:
+        """Terms of a sum in the order of the paper."""
+        return ordered_terms(expr)
 
     def _print_Pow(self, expr: sp.Pow) -> str:
         named = isinstance(expr.base, sp.Symbol) and expr.base.name.startswith(("cos_", "sin_"))
@@ -103,13 +125,10 @@ _TERMS_AT_MOST, _TERMS_A_LINE = 5, 4
 
 def _display(name: str, expression: sp.Expr) -> str:
     """``name = expression``, a long sum on several lines."""
-    terms = expression.args if isinstance(expression, sp.Add) else ()
+    terms = ordered_terms(expression)
     if len(terms) <= _TERMS_AT_MOST:
         return f"{name} = {expression_latex(expression)}"
-    rows = [
-        sp.Add(*terms[i : i + _TERMS_A_LINE], evaluate=False)
-        for i in range(0, len(terms), _TERMS_A_LINE)
-    ]
+    rows = [sp.Add(*terms[i : i + _TERMS_A_LINE]) for i in range(0, len(terms), _TERMS_A_LINE)]
     lines = [expression_latex(row).strip() for row in rows]
     signed = [line if line.startswith("-") else f"+ {line}" for line in lines[1:]]
     body = r" \cr & \quad ".join([lines[0], *signed])
