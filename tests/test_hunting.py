@@ -167,6 +167,17 @@ class TestExpandedGeometry:
             ExpandedGeometry({"dr_left": expanded_polynomial(0.0)})
 
 
+def test_hopf_point_where_the_saturated_law_is_not_smooth():
+    """Without creep at the centre the second derivatives do not exist: speed, no coefficient."""
+    flat = {"mu": 0.3, "c0": 0.0, "radius_offset": 0.0}
+    system = hunting_system(reading({"creep_law": "shen_hedrick_elkins"}, flat))
+    (hopf,) = instabilities(system, "v", (20.0, 100.0))
+    linear = hopf_point(hunting_system(reading({}, flat)), "v", 50.0)
+    assert hopf.value == pytest.approx(linear.value, rel=1e-9)
+    assert (hopf.kind, hopf.lyapunov) == ("H?", None)
+    assert "not smooth at zero" in hopf.reason
+
+
 def test_derivatives_by_parameters():
     """Compiled derivatives by parameters against the nilpotent ones."""
     system = hunting_system(reading({"flange_law": "exponential"}))

@@ -97,6 +97,13 @@ def test_fifth_order_of_a_monomial_is_its_factorial():
     assert power.form([0.7], None, *[[1.0]] * 5) == pytest.approx([240.0], rel=1e-14)
 
 
+def test_an_infinite_derivative_is_an_outcome_in_real_and_complex_directions():
+    root = System.from_function(lambda x, p: [sp.sqrt(x[0]) * p[0]], ("x",), {"c": 1.0})
+    for direction in ([1.0], [1.0j]):
+        with pytest.raises(NotFinite, match="x = 0"):
+            root.form([0.0], None, direction)
+
+
 def test_points_are_independent_of_batch():
     toy = toy_wheelset()
     X = np.random.default_rng(1).normal(size=(7, 4)) * [1e-3, 1e-3, 0.1, 0.1]

@@ -58,3 +58,11 @@ def test_window_has_to_be_ordered():
 def test_impossible_speeds_are_refused(speed):
     with pytest.raises(ValidationError, match="speed"):
         parameters_of("flange_models")(speed=speed)
+
+
+@pytest.mark.parametrize("study", STUDIES.values())
+def test_a_vehicle_that_cannot_be_loaded_is_refused_before_anything_runs(study):
+    model = parameters_of(study)
+    field = next(name for name in model.model_fields if name.startswith("vehicle"))
+    with pytest.raises(ValidationError, match='unknown vehicle "guo2020"'):
+        model(**{field: "guo2020"})

@@ -13,7 +13,7 @@ from scipy.linalg import matrix_balance
 
 from wheelset.bifurcation.equilibrium import EquilibriumPath, equilibrium_path
 from wheelset.bifurcation.lyapunov import critical_pair, first_lyapunov
-from wheelset.bifurcation.outcomes import DomainLeft, NoConvergence, as_tuple
+from wheelset.bifurcation.outcomes import NoConvergence, NumericalOutcome, as_tuple
 from wheelset.bifurcation.roots import roots_in
 from wheelset.bifurcation.system import System
 
@@ -236,11 +236,12 @@ def _nearest(eigenvalues: NDArray[Any], target: complex) -> complex:
 
 
 def _criticality(path: EquilibriumPath, value: float, frequency: float) -> tuple[float | None, str]:
-    pair = critical_pair(path.jacobian(value), frequency)
+    """The first Lyapunov coefficient, or None and the reason why there is none."""
     try:
+        pair = critical_pair(path.jacobian(value), frequency)
         return first_lyapunov(path.system, path.state(value), path.p(value), pair), ""
-    except DomainLeft as left:
-        return None, str(left)
+    except NumericalOutcome as outcome:
+        return None, str(outcome)
 
 
 def _static_point(path: EquilibriumPath, value: float) -> StaticPoint:

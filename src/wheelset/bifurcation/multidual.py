@@ -52,24 +52,29 @@ def _compose(slots: Array, taylor: Array, a: int, order: int, out: int) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def _taylor(kind: int, a: Any, k: float, order: int, out: Array) -> None:
-    """Taylor coefficients at ``a`` of a^k (5), exp (6), log (7), sin (8), cos (9)."""
-    if kind == 5:
-        out[0] = a**k
-        for j in range(1, order + 1):
-            out[j] = out[j - 1] * (k - j + 1) / (j * a)
-    elif kind == 6:
-        out[0] = np.exp(a)
-        for j in range(1, order + 1):
-            out[j] = out[j - 1] / j
-    elif kind == 7:
-        out[0] = np.log(a)
-        for j in range(1, order + 1):
-            out[j] = 1.0 / a if j == 1 else -out[j - 1] * (j - 1) / (j * a)
-    else:
-        out[0], out[1] = (np.sin(a), np.cos(a)) if kind == 8 else (np.cos(a), -np.sin(a))
-        for j in range(2, order + 1):
-            out[j] = -out[j - 2] / (j * (j - 1))
+def _taylor(kind: int, x: float, k: float, order: int, out: Array) -> None:
+    """Taylor coefficients at a real x of x^k (5), exp (6), log (7), sin (8), cos (9).
+
+    In real arithmetic: where one is infinite it says so, and does not raise.
+    """
+    if kind >= 8:
+        value, slope = (np.sin(x), np.cos(x)) if kind == 8 else (np.cos(x), -np.sin(x))
+        factor = 1.0
+        for j in range(order + 1):
+            out[j] = factor * value
+            value, slope = slope, -value
+            factor /= j + 1
+        return
+    term = x**k if kind == 5 else np.exp(x) if kind == 6 else np.log(x)
+    out[0] = term
+    for j in range(1, order + 1):
+        if kind == 5:
+            term *= (k - j + 1) / (j * x)
+        elif kind == 6:
+            term /= j
+        else:
+            term = 1 / x if j == 1 else -term * (j - 1) / (j * x)
+        out[j] = term
 
 
 @njit(cache=True, error_model="numpy")
@@ -120,6 +125,6 @@ def propagate(  # noqa: C901  (one branch an elementary operation)
             if kind == 10:
                 taylor[: reach + 1] = sampled[b, : reach + 1]
             else:
-                _taylor(kind, slots[a, 0], k, reach, taylor)
+                _taylor(kind, slots[a, 0].real, k, reach, taylor)
             _compose(slots, taylor, a, reach, here)
     return slots

@@ -113,6 +113,7 @@ def _point_record(point: Any) -> dict[str, Any]:
         "state": list(point.state),
         "unstable_below_above": list(point.unstable),
         "words": point.words,
+        "reason": getattr(point, "reason", ""),
     }
 
 
@@ -161,7 +162,8 @@ def simulate(
             stop_when_settled=settle,
         )
     if csv:
-        _write_csv(trajectory, csv)
+        with clear_errors(OSError):
+            _write_csv(trajectory, csv)
     record = _trajectory_record(trajectory)
     if as_json:
         show_json(record)

@@ -86,8 +86,8 @@ def find_source(folder: Path, name: str) -> Source:
     meant = [stem] if stem in stems else [known for known in stems if known.startswith(stem)]
     if len(meant) != 1:
         raise InputError(
-            f"no single notebook is called `{name}`{did_you_mean(stem, stems)} "
-            f"There are: {', '.join(stems)}."
+            f"no single notebook is called `{name}`{did_you_mean(stem, stems)}; "
+            f"there are: {', '.join(stems)}."
         )
     return read_source(folder / f"{meant[0]}.ipynb")
 

@@ -77,9 +77,12 @@ def check_parameters(source: Source, values: Mapping[str, Any]) -> dict[str, Any
 
 
 def all_parameters(source: Source, values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return every parameter the notebook runs with: the defaults and the checked `values`."""
+    """Return every parameter the notebook runs with: the defaults and the checked `values`.
+
+    They are not checked again: a file among them is named as the run will find it, not as here.
+    """
     model = parameters_model(source)
-    return {} if model is None else model.model_validate(dict(values)).model_dump(mode="json")
+    return {} if model is None else model.model_construct(**values).model_dump(mode="json")
 
 
 def _complaint(source: Source, model: type[BaseModel], error: ValidationError) -> str:

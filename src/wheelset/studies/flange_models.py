@@ -13,7 +13,7 @@ import sympy as sp
 from pydantic import Field
 
 from wheelset.studies.hopf_rows import first_hopf, hopf_row, stability_changes
-from wheelset.studies.parameters import Speed, WindowParameters
+from wheelset.studies.parameters import Speed, VehicleName, WindowParameters
 from wheelset.vehicle import Vehicle, load_vehicle
 from wheelset.vehicle.flange import FLANGE_LAWS, FlangeLaw, flange_force
 from wheelset.vehicle.symbols import p as symbol
@@ -32,11 +32,11 @@ _POINTS = {"quick": 121, "paper": 601}
 class Parameters(WindowParameters):
     """Parameters of the study of section 3."""
 
-    vehicle_case_1: str = Field(
+    vehicle_case_1: VehicleName = Field(
         default="guo2021_case1",
         description="Vehicle of case 1 (supercritical): packaged name or path of a file.",
     )
-    vehicle_case_2: str = Field(
+    vehicle_case_2: VehicleName = Field(
         default="guo2021_case2",
         description="Vehicle of case 2 (subcritical): packaged name or path of a file.",
     )

@@ -14,7 +14,7 @@ from pydantic import Field
 from wheelset.bifurcation.equilibrium import EigenvalueLoci, eigenvalue_loci
 from wheelset.hunting import hunting_system
 from wheelset.studies.hopf_rows import first_hopf, hopf_row, stability_changes
-from wheelset.studies.parameters import WindowParameters
+from wheelset.studies.parameters import VehicleName, WindowParameters
 from wheelset.vehicle import load_vehicle
 
 #: a3 [1/m2] that the paper takes wherever it scans another coefficient in section 5 and Table 3.
@@ -33,7 +33,7 @@ _POINTS = {"quick": 60, "paper": 400}
 class Parameters(WindowParameters):
     """Parameters of the study of section 4's default Hopf point."""
 
-    vehicle: str = Field(
+    vehicle: VehicleName = Field(
         default="guo2021", description="Name of a packaged vehicle or path of a vehicle file."
     )
 

@@ -12,7 +12,7 @@ import pandas as pd
 import sympy as sp
 from pydantic import Field
 
-from wheelset.studies.parameters import StudyParameters
+from wheelset.studies.parameters import StudyParameters, VehicleName
 from wheelset.vehicle import ModelOptions, Vehicle, load_vehicle
 from wheelset.vehicle.equations import Equation, equations_of_motion
 from wheelset.vehicle.geometry import QUANTITIES, SIDES, PolynomialGeometry
@@ -28,7 +28,7 @@ _POINTS = {"quick": 61, "paper": 301}
 class Parameters(StudyParameters):
     """Parameters of the study of the model itself."""
 
-    vehicle: str = Field(
+    vehicle: VehicleName = Field(
         default="guo2021", description="Name of a packaged vehicle or path of a vehicle file."
     )
     reach: float = Field(

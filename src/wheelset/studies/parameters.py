@@ -4,10 +4,21 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
+
+from wheelset.vehicle import load_vehicle
 
 #: quick: coarse grids, for a look and for tests; paper: the resolution of the book.
 Resolution = Literal["quick", "paper"]
+
+
+def _loadable(name: str) -> str:
+    load_vehicle(name)
+    return name
+
+
+#: A packaged vehicle or the path of a vehicle file; refused, with all that is wrong, if unreadable.
+VehicleName = Annotated[str, AfterValidator(_loadable)]
 
 #: A speed in m/s that a railway vehicle can be asked about.
 Speed = Annotated[float, Field(gt=0.0, le=1000.0)]
