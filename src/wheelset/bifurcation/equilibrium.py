@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.linalg.lapack import dgeev
 from scipy.optimize import linear_sum_assignment
 
 from wheelset.bifurcation.outcomes import NoConvergence
@@ -29,7 +31,7 @@ def equilibrium(system: System, p: Array, guess: ArrayLike | None = None) -> tup
     residuals: list[float] = []
     for _ in range(MAX_ITERATIONS):
         f, jacobian = system.evaluate(x, p)
-        residuals.append(float(np.linalg.norm(f)))
+        residuals.append(math.sqrt(f @ f))
         if residuals[-1] == 0.0:
             return x, jacobian
         step = _solve(jacobian, -f, residuals)
@@ -55,6 +57,7 @@ class EquilibriumPath:
     parameter: str
     guess: Array
     known: dict[float, tuple[Array, Array]] = field(default_factory=dict)
+    spectra: dict[float, NDArray[Any]] = field(default_factory=dict)
 
     def p(self, value: float) -> Array:
         """Parameter vector with the path's parameter at ``value``."""
@@ -78,7 +81,17 @@ class EquilibriumPath:
 
     def eigenvalues(self, value: float) -> NDArray[Any]:
         """Eigenvalues of the Jacobian at the equilibrium, complex, shape (n,)."""
-        return np.linalg.eigvals(self.jacobian(value)).astype(complex)
+        if value not in self.spectra:
+            self.spectra[value] = _spectrum(self.jacobian(value))
+        return self.spectra[value]
+
+
+def _spectrum(matrix: Array) -> NDArray[Any]:
+    """Eigenvalues, always complex; LAPACK directly, since small matrices are mostly overhead."""
+    real, imaginary, _, _, info = dgeev(matrix, compute_vl=False, compute_vr=False)
+    if info:
+        raise NoConvergence("the eigenvalues of a Jacobian", ())
+    return real + 1j * imaginary
 
 
 @dataclass(frozen=True)

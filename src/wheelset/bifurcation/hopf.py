@@ -25,7 +25,7 @@ MAX_ITERATIONS = 30
 
 #: First step of the secant method, and the step that ends it, relative to the parameter. The
 #: error left is of the order of the last two steps' product.
-SECANT_START, SECANT_END = 1e-3, 1e-11
+SECANT_START, SECANT_END = 1e-3, 1e-9
 
 #: A real part this small relative to its eigenvalue is zero to rounding.
 ROUNDING = 1e-15
@@ -217,10 +217,9 @@ def _to_axis(path: EquilibriumPath, start: float, frequency: float) -> tuple[flo
     step, history = SECANT_START * size, [abs(old.real)]
     for _ in range(MAX_ITERATIONS):
         value += step
-        eigenvalues = path.eigenvalues(value)
-        new = _nearest(eigenvalues, 1j * old.imag)
+        new = _nearest(path.eigenvalues(value), 1j * old.imag)
         history.append(abs(new.real))
-        if abs(new.imag) <= _tiny(eigenvalues):  # the pair has become real
+        if new.imag == 0.0:  # the pair has become real
             break
         if abs(step) <= SECANT_END * abs(value) or abs(new.real) <= ROUNDING * abs(new):
             return value, new.imag
