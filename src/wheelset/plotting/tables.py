@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from html import escape
 from typing import Any
 
+import numpy as np
 import pandas as pd
 from IPython.display import Markdown
 from pydantic import BaseModel
@@ -63,7 +64,8 @@ class Table:
             return f"<tr>{cells}</tr>"
         return (
             f'<tr class="noted">{cells}</tr>'
-            f'<tr class="note"><td colspan="{len(self.headings)}">{escape(note)}</td></tr>'
+            f'<tr class="note"><td colspan="{len(self.headings)}">'
+            f"<div>{escape(note)}</div></td></tr>"
         )
 
     def _cell(self, column: str, value: Any) -> str:
@@ -104,7 +106,9 @@ def math(latex: str) -> str:
 
 def exact(value: float) -> str:
     """A value with as many digits as it takes to read it back."""
-    return repr(int(value)) if value == round(value) and abs(value) < 1e6 else f"{value:.12g}"
+    if abs(value) >= 1e9:
+        return np.format_float_scientific(value, trim="-", exp_digits=1)
+    return repr(int(value)) if value == round(value) else f"{value:.12g}"
 
 
 def parameter_table(parameters: BaseModel) -> Table:

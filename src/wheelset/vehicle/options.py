@@ -64,7 +64,7 @@ class ModelOptions(BaseModel):
         default=1,
         description=(
             "How many times the force of Eqs. (24)-(27) acts on the wheelset. 1: once. "
-            "2: once for each wheel, as section 3's numbers want."
+            "2: once for each wheel."
         ),
     )
 
