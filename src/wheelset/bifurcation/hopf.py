@@ -19,7 +19,7 @@ from wheelset.bifurcation.system import System
 
 Array = NDArray[np.float64]
 
-#: Below this magnitude, relative to the cubic terms' scale of 1, a coefficient is not signed.
+#: A coefficient below this magnitude is not signed: the point is called degenerate.
 DEGENERATE = 1e-9
 MAX_ITERATIONS = 30
 
@@ -157,7 +157,7 @@ def _test(path: EquilibriumPath, scale: Array, product: Product) -> Callable[[fl
 
     def value_at(value: float) -> float:
         balanced = path.jacobian(value) * scale[np.newaxis, :] / scale[:, np.newaxis]
-        total, factors = product(np.linalg.eigvals(balanced))
+        total, factors = product(path.eigenvalues(value))  # balancing is a similarity
         return float(total.real / np.linalg.norm(balanced) ** factors)
 
     return value_at

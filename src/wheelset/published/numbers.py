@@ -182,9 +182,7 @@ GENERALIZED_HOPF: tuple[GeneralizedHopf, ...] = (  # pp. 998-999, the last one p
     GeneralizedHopf(5, "c1", 1140.8416, value_decimals=4),
 )
 
-SECTION_5_A3 = 200.0  # 1/m2, p. 1000: all rows of Table 3 but those of a3
-
-TABLE_3: tuple[GeometryRow, ...] = (  # p. 1001
+TABLE_3: tuple[GeometryRow, ...] = (  # p. 1001; a3 = 200 1/m2 but in its own rows (p. 1000)
     GeometryRow("a1", 0.05, 120.67, 30.91, 104.20, 61.77),
     GeometryRow("a1", 0.15, 64.34, 11.52, 62.16, 71.43),
     GeometryRow("a1", 0.25, 49.11, 6.55, 48.22, 90.92),

@@ -22,22 +22,3 @@ class Progress(Protocol):
 
     def failed(self, name: str, message: str) -> None:
         """Work on `name` ended badly, or could not begin."""
-
-
-class Silent:
-    """A listener who keeps it to himself."""
-
-    def started(self, name: str, reason: str) -> None:
-        """Say nothing."""
-
-    def advanced(self, name: str, done: int, total: int) -> None:
-        """Say nothing."""
-
-    def finished(self, name: str, seconds: float) -> None:
-        """Say nothing."""
-
-    def unchanged(self, name: str) -> None:
-        """Say nothing."""
-
-    def failed(self, name: str, message: str) -> None:
-        """Say nothing."""
