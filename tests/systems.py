@@ -11,6 +11,13 @@ from wheelset.bifurcation.system import System
 
 #: Toy wheelset: values on which closed form, MATCONT and AUTO-07p agree (a3 in 1/m2, SI).
 TOY_HOPF = {"v": 50.22920722319, "frequency": 40.96847524544, "flc_at_a3_100": 3.453997012555}
+#: Folds of its cycles by a3: v [m/s], T [s], b [1/s]; AUTO-07p and MATCONT to their print.
+TOY_LPC = {
+    100.0: (49.744661148, 0.153081670254, 82.99819),
+    50.0: (50.01611031, 0.153229031, 77.451776),
+}
+#: Its generalised Hopf point: a3 [1/m2] and SLC.
+TOY_GH = (0.0234438188506, -0.130504562189)
 TOY = {
     "m": 1550.0, "I": 990.0, "Ky": 1e6, "Kx": 1e6, "r0": 0.46, "b": 0.75, "wp": 1.0,
     "a1": 0.23, "f11": 8e6, "f22": 8e6, "p1": 3.906e-4, "q": 1645.0,
@@ -19,7 +26,9 @@ TOY = {
 
 def toy_wheelset(a3: float = 100.0, v: float = 50.0) -> System:
     """A wheelset with constant creep coefficients and the exponential flange."""
-    return System.from_function(_toy_field, ("y", "psi", "yd", "psid"), {**TOY, "a3": a3, "v": v})
+    scales = {"y": 1e-3, "psi": 1e-3, "yd": 4e-2, "psid": 4e-2}
+    values = {**TOY, "a3": a3, "v": v}
+    return System.from_function(_toy_field, ("y", "psi", "yd", "psid"), values, scales)
 
 
 def _toy_field(x: Sequence[sp.Symbol], p: Sequence[sp.Symbol]) -> list[sp.Expr]:

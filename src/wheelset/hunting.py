@@ -23,6 +23,9 @@ from wheelset.vehicle.vehicle import Vehicle
 #: Speed a system starts with, m/s.
 DEFAULT_SPEED = 50.0
 
+#: Typical sizes of the states, for norms: a millimetre and a milliradian at 6 Hz.
+SCALES = {"y": 1e-3, "psi": 1e-3, "yd": 4e-2, "psid": 4e-2}
+
 
 def hunting_system(
     vehicle: Vehicle, contact: ContactGeometry | None = None, speed: float = DEFAULT_SPEED
@@ -39,7 +42,7 @@ def hunting_system(
     )
     values = {**vehicle.values, "v": speed}
     used = {name: values[name] for name in field.parameter_names if name in values}
-    return System(field, used, dict(geometry.functions))
+    return System(field, used, dict(geometry.functions), SCALES)
 
 
 def flange_contact(vehicle: Vehicle) -> tuple[ThresholdPair, ...]:

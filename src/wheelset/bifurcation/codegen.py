@@ -1,9 +1,8 @@
-"""numba source for f and its exact first derivatives, written from a tape.
+"""Compiled programs: small numba modules, kept on disk.
 
-One function a (tape, list of variables to differentiate by). It loops over points, so one call
-serves a single state, a whole collocation mesh or a figure; what depends on parameters only is
-computed once a call. Sources are cached on disk by their hash, beside numba's own cache of the
-machine code, and never committed.
+A module holds the listing of one program and the function that runs it. Its name is the hash of
+what it is made from, so that numba's cache of the machine code beside it is never out of date.
+Modules are never committed.
 """
 
 from __future__ import annotations
@@ -15,7 +14,6 @@ import os
 import sys
 import tempfile
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 from types import ModuleType
@@ -23,163 +21,47 @@ from types import ModuleType
 import numba
 import platformdirs
 
-from wheelset.bifurcation.tape import Kind, Operation, Tape
+from wheelset.bifurcation import elementary, lanes, lowering
+from wheelset.bifurcation.program import Argument, Program
 
 logger = logging.getLogger(__name__)
 
-Derivative = dict[int, str]  # variable slot -> source of the derivative, zeros left out
+_MODULE = '''"""Generated from a field; do not edit."""
 
-_HEADER = '''"""Generated from a tape; do not edit."""
-from math import cos, exp, log, sin, isfinite
 from numba import njit
 
+from wheelset.bifurcation.lowering import runner
+from wheelset.bifurcation.program import Argument
 
-@njit(cache=True, error_model="numpy", fastmath={"contract", "nsz"})
-def evaluate(X, p, sampled, F, J, status):
+run = runner(
+    ({arguments},),
+    """
+{listing}
+""",
+)
+
+
+@njit("int64({types})", cache=True, no_cfunc_wrapper=True)
+def evaluate({names}):
+    return run(({names},))
 '''
 
 
-@dataclass
-class _Source:
-    """Collects lines; ``once`` before the loop over points, ``each`` inside it."""
+def source(program: Program) -> str:
+    """The module of a program: ``evaluate`` of its arrays, C-contiguous and of doubles.
 
-    tape: Tape
-    variables: tuple[int, ...]
-    once: list[str] = field(default_factory=list)
-    each: list[str] = field(default_factory=list)
-    value: dict[int, str] = field(default_factory=dict)
-    slope: dict[int, Derivative] = field(default_factory=dict)
-    fixed: set[int] = field(default_factory=set)
-
-    def write(self, slot: int, suffix: str, expression: str) -> str:
-        """Assign an expression to a fresh name, before the loop if nothing in it varies."""
-        name = f"s{slot}{suffix}"
-        (self.once if slot in self.fixed else self.each).append(f"{name} = {expression}")
-        return name
-
-
-def source(tape: Tape, variables: tuple[int, ...]) -> str:
-    """Source of ``evaluate(X, p, sampled, F, J, status)``.
-
-    X (points, n); p (m,); sampled (points, functions, 2) values and slopes; F (points, n);
-    J (points, n, len(variables)); status (points,): 0, or 1 + index of the first condition
-    violated, or -1 where f is not finite. ``variables`` are slots below n + m.
+    It returns 0, 1 + the number of a point that was refused, or -1 where shapes do not fit.
     """
-    s = _Source(tape, variables)
-    _inputs(s)
-    for i, operation in enumerate(tape.operations):
-        _operation(s, tape.n + tape.m + i, operation)
-    _outputs(s)
-    once = "".join(f"    {line}\n" for line in s.once)
-    each = "".join(f"        {line}\n" for line in s.each)
-    return f"{_HEADER}{once}    for i in range(X.shape[0]):\n{each}"
+    return _MODULE.format(
+        arguments=",\n     ".join(map(repr, program.arguments)),
+        listing=program.listing(),
+        types=", ".join(map(_type, program.arguments)),
+        names=", ".join(a.name for a in program.arguments),
+    )
 
 
-def _inputs(s: _Source) -> None:
-    for slot in range(s.tape.n + s.tape.m):
-        if slot >= s.tape.n:
-            s.fixed.add(slot)
-        origin = f"X[i, {slot}]" if slot < s.tape.n else f"p[{slot - s.tape.n}]"
-        s.value[slot] = s.write(slot, "", origin)
-        s.slope[slot] = {slot: "1.0"} if slot in s.variables else {}
-
-
-def _operation(s: _Source, slot: int, o: Operation) -> None:
-    arguments = _arguments(o)
-    if o.kind != Kind.SAMPLED and all(a in s.fixed for a in arguments):
-        s.fixed.add(slot)
-    s.value[slot] = s.write(slot, "", _value(s, o))
-    if o.kind == Kind.SELECT:
-        s.slope[slot] = _select(s, slot, o)
-        return
-    chain = _chain(s, slot, o)
-    used = sorted({v for a, _ in chain for v in s.slope[a]})
-    s.slope[slot] = {v: s.write(slot, f"_{v}", _sum(s, chain, v)) for v in used}
-
-
-def _select(s: _Source, slot: int, o: Operation) -> Derivative:
-    """Slopes of the chosen side only: the other one may be infinite."""
-    b, c = s.slope[o.b], s.slope[o.c]
-    choice = f"if {s.value[o.a]} > 0.0 else"
-    return {
-        v: s.write(slot, f"_{v}", f"{b.get(v, '0.0')} {choice} {c.get(v, '0.0')}")
-        for v in sorted({*b, *c})
-    }
-
-
-def _arguments(o: Operation) -> tuple[int, ...]:
-    if o.kind == Kind.CONSTANT:
-        return ()
-    if o.kind in (Kind.ADD, Kind.MUL):
-        return (o.a, o.b)
-    return (o.a, o.b, o.c) if o.kind == Kind.SELECT else (o.a,)
-
-
-def _value(s: _Source, o: Operation) -> str:
-    a, b, c = (s.value.get(slot, "") for slot in (o.a, o.b, o.c))
-    rules = {
-        Kind.CONSTANT: f"{o.k!r}",
-        Kind.ADD: f"{a} + {b}",
-        Kind.MUL: f"{a} * {b}",
-        Kind.SHIFT: f"{a} + {o.k!r}",
-        Kind.SCALE: f"{o.k!r} * {a}",
-        Kind.POWER: f"1.0 / {a}" if o.k == -1 else f"{a} ** {o.k!r}",
-        Kind.EXP: f"exp({a})",
-        Kind.LOG: f"log({a})",
-        Kind.SIN: f"sin({a})",
-        Kind.COS: f"cos({a})",
-        Kind.SAMPLED: f"sampled[i, {o.b}, 0]",
-        Kind.SELECT: f"{b} if {a} > 0.0 else {c}",
-    }
-    return rules[o.kind]
-
-
-def _chain(s: _Source, slot: int, o: Operation) -> list[tuple[int, str]]:
-    """(argument, partial derivative by it); only where the argument varies."""
-    if o.kind == Kind.CONSTANT or not any(s.slope[a] for a in _arguments(o)):
-        return []
-    a, b, here = s.value[o.a], s.value.get(o.b, ""), s.value[slot]
-    if o.kind == Kind.ADD:
-        return [(o.a, ""), (o.b, "")]
-    if o.kind == Kind.MUL:
-        return [(o.a, b), (o.b, a)]
-    rules = {
-        Kind.SHIFT: lambda: "",
-        Kind.SCALE: lambda: repr(o.k),
-        Kind.POWER: lambda: s.write(
-            slot, "_p", f"-{here} * {here}" if o.k == -1 else f"{o.k!r} * {here} / {a}"
-        ),
-        Kind.EXP: lambda: here,
-        Kind.LOG: lambda: s.write(slot, "_p", f"1.0 / {a}"),
-        Kind.SIN: lambda: s.write(slot, "_p", f"cos({a})"),
-        Kind.COS: lambda: s.write(slot, "_p", f"-sin({a})"),
-        Kind.SAMPLED: lambda: f"sampled[i, {o.b}, 1]",
-    }
-    return [(o.a, rules[o.kind]())]
-
-
-def _sum(s: _Source, chain: list[tuple[int, str]], variable: int) -> str:
-    terms = [_product(p, s.slope[a][variable]) for a, p in chain if variable in s.slope[a]]
-    return " + ".join(terms)
-
-
-def _product(factor: str, slope: str) -> str:
-    if slope == "1.0":
-        return factor or "1.0"
-    return f"{factor} * {slope}" if factor else slope
-
-
-def _outputs(s: _Source) -> None:
-    for row, slot in enumerate(s.tape.outputs):
-        s.each.append(f"F[i, {row}] = {s.value[slot]}")
-        for column, v in enumerate(s.variables):
-            s.each.append(f"J[i, {row}, {column}] = {s.slope[slot].get(v, '0.0')}")
-    results = [f"F[i, {row}]" for row in range(s.tape.n)]
-    results += [f"J[i, {row}, {c}]" for row in range(s.tape.n) for c in range(len(s.variables))]
-    s.each.append(f"status[i] = 0 if isfinite({' + '.join(results)}) else -1")
-    for number, (slot, condition) in reversed(list(enumerate(s.tape.conditions, start=1))):
-        if condition.order == 0:
-            s.each.append(f"if not {s.value[slot]} > {condition.least!r}: status[i] = {number}")
+def _type(a: Argument) -> str:
+    return f"Array(float64, {len(a.shape) + a.each}, 'C', readonly={not a.written})"
 
 
 def cache_folder() -> Path:
@@ -188,20 +70,24 @@ def cache_folder() -> Path:
     return Path(chosen) if chosen else Path(platformdirs.user_cache_dir("wheelset"))
 
 
-@lru_cache(maxsize=256)
-def kernel(tape: Tape, variables: tuple[int, ...]) -> Callable[..., None]:
-    """The compiled ``evaluate`` of a tape, differentiated by the given slots."""
-    return compiled(source(tape, variables))
-
-
-def compiled(text: str) -> Callable[..., None]:
-    """The compiled ``evaluate`` of a source, from the cache on disk where it is there."""
-    digest = hashlib.sha256(f"{numba.__version__}\n{text}".encode()).hexdigest()[:24]
-    path = cache_folder() / f"kernel_{digest}.py"
+def compiled(program: Program) -> Callable[..., int]:
+    """The machine code of a program, from the cache on disk where it is there."""
+    text = source(program)
+    digest = hashlib.sha256(f"{numba.__version__}\n{_compiler()}\n{text}".encode()).hexdigest()
+    path = cache_folder() / f"kernel_{digest[:24]}.py"
     if not path.exists():
         logger.info("writing kernel %s", path)
         _write_atomically(path, text)
     return _load(path).evaluate
+
+
+@lru_cache(maxsize=1)
+def _compiler() -> str:
+    """Hash of what turns listings into machine code."""
+    digest = hashlib.sha256()
+    for module in (lanes, elementary, lowering):
+        digest.update(Path(str(module.__file__)).read_bytes())
+    return digest.hexdigest()
 
 
 def _write_atomically(path: Path, text: str) -> None:

@@ -65,7 +65,7 @@ def _taylor(kind: int, x: float, k: float, order: int, out: Array) -> None:
             value, slope = slope, -value
             factor /= j + 1
         return
-    term = x**k if kind == 5 else np.exp(x) if kind == 6 else np.log(x)
+    term = np.exp(x) if kind == 6 else np.log(x) if kind == 7 else 1 / x if k == -1.0 else x**k
     out[0] = term
     for j in range(1, order + 1):
         if kind == 5:
@@ -78,32 +78,35 @@ def _taylor(kind: int, x: float, k: float, order: int, out: Array) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def propagate(  # noqa: C901  (one branch an elementary operation)
-    code: Array, constants: Array, base: Array, directions: Array, sampled: Array
-) -> Array:
-    """Every slot of a tape with all its 2^k coefficients.
+def _propagate(  # noqa: C901  (one branch an elementary operation)
+    code: Array,
+    constants: Array,
+    slots: Array,
+    sampled: Array,
+    still: Array,
+    known: Array,
+    taylor: Array,
+) -> None:
+    """Fill the slots of a tape's operations, each with all its 2^k coefficients.
 
-    code (ops, 4), constants (ops,): the packed tape. base (n + m,): state and parameters.
-    directions (k, n + m), real or complex. sampled (functions, k + 1): Taylor coefficients.
-    Returns (n + m + ops, 2^k), of the type of ``directions``.
+    code (ops, 4), constants (ops,): the packed tape. slots (n + m + ops, 2^k): state and
+    parameters are there. sampled (functions, k + 1): Taylor coefficients. still (slots,): whether
+    a slot depends on no direction; the inputs' are there. known (ops,): already filled.
+    taylor (k + 1,): work.
     """
-    order, inputs = directions.shape
-    size = 1 << order
-    slots = np.zeros((inputs + code.shape[0], size), dtype=directions.dtype)
-    still = np.ones(slots.shape[0], dtype=np.bool_)  # no dependence on any direction
-    taylor = np.zeros(max(order, 1) + 1, dtype=directions.dtype)
-    for i in range(inputs):
-        slots[i, 0] = base[i]
-        for j in range(order):
-            slots[i, 1 << j] = directions[j, i]
-            still[i] = still[i] and directions[j, i] == 0.0
+    size = slots.shape[1]
+    inputs, order = slots.shape[0] - code.shape[0], sampled.shape[1] - 1
     for i in range(code.shape[0]):
-        kind, a, b, c = code[i]
+        if known[i]:
+            continue
+        kind, a, b, c = code[i, 0], code[i, 1], code[i, 2], code[i, 3]
         k, here = constants[i], inputs + i
         if kind == 11:
             a = b if slots[a, 0].real > 0.0 else c
         still[here] = kind == 0 or (still[a] and (kind > 2 or still[b]))
         count = 1 if still[here] else size
+        for part in range(count, size):
+            slots[here, part] = 0.0
         if kind == 0:
             slots[here, 0] = k
         elif kind == 1:
@@ -123,8 +126,67 @@ def propagate(  # noqa: C901  (one branch an elementary operation)
         else:
             reach = 0 if still[a] else order
             if kind == 10:
-                taylor[: reach + 1] = sampled[b, : reach + 1]
+                for j in range(reach + 1):
+                    taylor[j] = sampled[b, j]
             else:
                 _taylor(kind, slots[a, 0].real, k, reach, taylor)
             _compose(slots, taylor, a, reach, here)
-    return slots
+
+
+@njit(cache=True, error_model="numpy")
+def over_points(
+    packed: tuple[Array, Array],
+    fixed: Array,
+    points: Array,
+    p: Array,
+    directions: Array,
+    sampled: Array,
+    bounds: tuple[Array, Array],
+    outputs: Array,
+    work: tuple[Array, Array, Array],
+    slots: Array,
+    out: Array,
+) -> int:
+    """D^k f(x, p)[v_1, ..., v_k] at every point; the number of points done.
+
+    packed: code (ops, 4) and constants (ops,) of a tape; fixed (ops,): operations of parameters
+    alone. points (points, n), p (m,), directions (points, k, n or n + m), real or complex,
+    sampled (points, functions, k + 1). bounds: slots and what they have to exceed.
+    work: still, all true, known, all false, and taylor of ``_propagate``. slots
+    (n + m + ops, 2^k), zero. out (points, n): written, from the slots ``outputs``.
+    A point outside a bound or not finite ends it, and its coefficients stay in ``slots``.
+    """
+    (code, constants), (still, known, taylor) = packed, work
+    n, (order, width) = points.shape[1], directions.shape[1:]
+    for j in range(len(p)):
+        slots[n + j, 0] = p[j]
+    for i in range(points.shape[0]):
+        for j in range(n):
+            slots[j, 0] = points[i, j]
+        for j in range(width):
+            still[j] = True
+            for d in range(order):
+                slots[j, 1 << d] = directions[i, d, j]
+                still[j] = still[j] and directions[i, d, j] == 0.0
+        _propagate(code, constants, slots, sampled[i], still, known, taylor)
+        if not _accepted(slots, bounds, outputs):
+            return i
+        for row in range(n):
+            out[i, row] = slots[outputs[row], slots.shape[1] - 1]
+        if i == 0 and width == n:
+            for j in range(len(fixed)):
+                known[j] = fixed[j]
+    return points.shape[0]
+
+
+@njit(cache=True, error_model="numpy")
+def _accepted(slots: Array, bounds: tuple[Array, Array], outputs: Array) -> bool:
+    """Whether all bounds are kept and all coefficients of the outputs are finite."""
+    for i in range(len(bounds[0])):
+        if not slots[bounds[0][i], 0].real > bounds[1][i]:
+            return False
+    total = slots[0, 0]
+    for row in range(len(outputs)):
+        for part in range(slots.shape[1]):
+            total += slots[outputs[row], part]
+    return bool(abs(total) < np.inf)

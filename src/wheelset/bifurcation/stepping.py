@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import OdeSolver
 
-from wheelset.bifurcation import codegen
 from wheelset.bifurcation.endings import (
     BecameNotFinite,
     Ending,
@@ -36,30 +35,21 @@ CLEAR = 4
 class RightHandSide:
     """f(x, p) of a smooth system as scipy calls it; remembers when it was last asked.
 
-    A step asks for f at one state some ten times, so the kernel the system compiled is called
-    without what ``System`` does for arrays and regions; whatever the kernel does not answer is
-    asked of the system, which raises the named outcome.
+    A step asks for f at one state some ten times, so the kernel of f is called without what
+    ``System`` does for arrays; where f has no value it raises the named outcome.
     """
 
     def __init__(self, system: System, p: Array) -> None:
         self.system, self.p = system, np.ascontiguousarray(p)
         self.last_t = 0.0
-        self._kernel = (
-            None if system.tape.sampled else codegen.kernel(system.tape, tuple(range(system.n)))
-        )
-        self._status = np.zeros(1, dtype=np.int64)
-        self._sampled = np.empty((1, 0, 2))
-        self._slopes = np.empty((1, system.n, system.n))
+        self._kernel = system.field_kernel()
 
     def __call__(self, t: float, x: Array) -> Array:
         """f at x, shape (n,)."""
         self.last_t = t
-        if self._kernel is None:
-            return self.system.rhs(x, self.p)
         f = np.empty((1, len(x)))
-        point = np.ascontiguousarray(x).reshape(1, -1)
-        self._kernel(point, self.p, self._sampled, f, self._slopes, self._status)
-        return self.system.rhs(x, self.p) if self._status[0] else f[0]
+        self._kernel(np.ascontiguousarray(x).reshape(1, -1), self.p, f)
+        return f[0]
 
     def jacobian(self, t: float, x: Array) -> Array:
         """df/dx."""

@@ -2,31 +2,24 @@
 
 from __future__ import annotations
 
-import cmath
 import dataclasses
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import sympy as sp
 from numpy.typing import ArrayLike, NDArray
 
-from wheelset.bifurcation import arrays, codegen, domain, multidual, regions
+from wheelset.bifurcation import arrays, domain, forms, kernels, regions, sampling
+from wheelset.bifurcation.batched import MeshKernel, mesh_kernel
 from wheelset.bifurcation.field import VectorField, vector_field
-from wheelset.bifurcation.outcomes import NotFinite, as_tuple
+from wheelset.bifurcation.kernels import Kernel
+from wheelset.bifurcation.sampling import TaylorFunction
 from wheelset.bifurcation.tape import Tape, record
 
 Array = NDArray[np.float64]
-
-
-class TaylorFunction(Protocol):
-    """A function of one variable that can be expanded anywhere: a spline, a sine, a table."""
-
-    def taylor(self, y: Array, order: int) -> Array:
-        """Coefficients f^(j)(y)/j!, j = 0..order, shape ``y.shape + (order + 1,)``."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -35,6 +28,7 @@ class System:
 
     field: the symbolic right-hand side. values: default value of every parameter, SI.
     functions: by name, what the field's sampled functions evaluate to.
+    scales: by name, the typical size of a state, for norms (default: 1).
 
     States x have shape (n,) or (points, n); parameter vectors p shape (m,), ordered as
     ``parameter_names``, and default to ``values``. Every evaluation returns finite numbers or
@@ -44,12 +38,18 @@ class System:
     field: VectorField
     values: Mapping[str, float]
     functions: Mapping[str, TaylorFunction] = dataclasses.field(default_factory=dict)
+    scales: Mapping[str, float] = dataclasses.field(default_factory=dict)
 
     def __post_init__(self) -> None:
         region = {self.field.switch.region.name} if self.field.switch else set()
         missing = set(self.parameter_names) - set(self.values) - region
         if missing:
             raise ValueError(f"no value for parameter {', '.join(sorted(missing))}; give one each")
+        unknown = set(self.scales) - set(self.state_names)
+        if unknown or not all(size > 0 for size in self.scales.values()):
+            raise ValueError(
+                f"scales = {dict(self.scales)}: positive sizes of {', '.join(self.state_names)}"
+            )
         unsampled = {name for name, _ in self.tape.sampled} - set(self.functions)
         if unsampled:
             raise ValueError(f"no function given for {', '.join(sorted(unsampled))}")
@@ -60,9 +60,10 @@ class System:
         f: Callable[..., Sequence[sp.Expr]],
         state: Sequence[str],
         values: Mapping[str, float],
+        scales: Mapping[str, float] | None = None,
     ) -> System:
         """A system from a plain Python function f(x, p); parameters are ordered as in values."""
-        return cls(vector_field(f, state, tuple(values)), dict(values))
+        return cls(vector_field(f, state, tuple(values)), dict(values), {}, dict(scales or {}))
 
     # --- names and parameter vectors ---------------------------------------------------------
 
@@ -85,6 +86,11 @@ class System:
     def parameter_names(self) -> tuple[str, ...]:
         """Names of the parameters, in order."""
         return self.field.parameter_names
+
+    @cached_property
+    def state_scales(self) -> Array:
+        """Typical sizes of the states, (n,)."""
+        return np.array([self.scales.get(name, 1.0) for name in self.state_names])
 
     def index(self, parameter: str) -> int:
         """Position of a parameter in p; ValueError with the names there are."""
@@ -116,7 +122,7 @@ class System:
         return regions.thresholds(self.field, self._vector(p))
 
     def _vector(self, p: Array | None) -> Array:
-        return self._defaults if p is None else np.asarray(p, dtype=np.float64)
+        return self._defaults if p is None else np.ascontiguousarray(p, dtype=np.float64)
 
     # --- f and its first derivatives, compiled -----------------------------------------------
 
@@ -129,55 +135,98 @@ class System:
         return self.evaluate(x, p)[1]
 
     def evaluate(
-        self, x: ArrayLike, p: Array | None = None, by: Sequence[str] | None = None
+        self,
+        x: ArrayLike,
+        p: Array | None = None,
+        by: Sequence[str] | None = None,
+        along: ArrayLike | None = None,
     ) -> tuple[Array, Array]:
-        """f, shape of x, and its exact derivatives by states and parameters named in ``by``
-        (default: the state), shape x.shape + (len(by),). Compiled on first use.
+        """f, shape of x, and its exact first derivatives, shape x.shape + (columns,).
+
+        Columns: the n states, followed by one for every row of ``along``, directions of the
+        parameters, shape (k, m); or instead the states and parameters named in ``by``.
+        Compiled on first use, once for every k.
         """
+        if by is None:
+            return self._first(x, p, self._along(along))
+        if along is not None:
+            raise ValueError("derivatives by names and along directions; ask for one of them")
+        names = [name for name in by if name not in self.state_names]
+        f, jacobian = self._first(x, p, self.directions(*names))
+        columns = [*self.state_names, *names]
+        if columns == list(by):
+            return f, jacobian
+        return f, jacobian[..., [columns.index(name) for name in by]]
+
+    def directions(self, *names: str) -> Array:
+        """Unit directions of parameters, shape (k, m)."""
+        rows = np.zeros((len(names), len(self.parameter_names)))
+        rows[np.arange(len(names)), [self.index(name) for name in names]] = 1.0
+        return rows
+
+    def _along(self, directions: ArrayLike | None) -> Array:
+        m = len(self.parameter_names)
+        if directions is None:
+            return np.empty((0, m))
+        rows = np.ascontiguousarray(directions, dtype=np.float64)
+        if rows.ndim != 2 or rows.shape[1] != m:
+            raise ValueError(f"directions of shape {rows.shape}; give rows of {m}, as p has")
+        return rows
+
+    def _first(self, x: ArrayLike, p: Array | None, along: Array) -> tuple[Array, Array]:
         states = np.asarray(x, dtype=np.float64)
-        points = np.ascontiguousarray(states.reshape(-1, self.n))
-        slots = tuple(range(self.n)) if by is None else tuple(map(self._slot, by))
-        if self.field.switch is None:
-            f, jacobian = self._smooth(points, self._vector(p), slots)
-        else:
-            f, jacobian = np.empty_like(points), np.empty((*points.shape, len(slots)))
-            for p_region, chosen in regions.split(self.field, points, self._vector(p)):
-                f[chosen], jacobian[chosen] = self._smooth(points[chosen], p_region, slots)
-        return f.reshape(states.shape), jacobian.reshape((*states.shape, len(slots)))
+        points, columns = self._points(states), self.n + len(along)
+        f, jacobian = np.empty_like(points), np.empty((*points.shape, columns))
+        self.jacobian_kernel(len(along))(points, self._vector(p), along, f, jacobian)
+        return f.reshape(states.shape), jacobian.reshape((*states.shape, columns))
 
-    def _smooth(self, points: Array, p: Array, slots: tuple[int, ...]) -> tuple[Array, Array]:
-        f, jacobian = np.empty_like(points), np.empty((*points.shape, len(slots)))
-        status = np.empty(len(points), dtype=np.int64)
-        kernel = codegen.kernel(self.tape, slots)
-        kernel(points, p, self._sampled(points, 1), f, jacobian, status)
-        if status.any():
-            self._raise_outcome(points[np.flatnonzero(status)[0]], p)
-        return f, jacobian
+    def _points(self, states: Array) -> Array:
+        return np.ascontiguousarray(states.reshape(-1, self.n))
 
-    def _raise_outcome(self, x: Array, p: Array) -> None:
-        """Say what the kernel met at a state: a condition violated, or an overflow."""
-        sampled = dict(enumerate(self._sampled(x[np.newaxis], 0)[0, :, 0]))
-        slots = arrays.evaluate(self.tape, [*x, *p], sampled)
-        domain.check_slots(self.tape, slots, x, self.state_names)
-        bad = ~np.isfinite(np.array(slots, dtype=np.float64))
-        raise domain.not_finite(self.tape, bad, x, self.state_names)
+    # --- kernels for hot loops -----------------------------------------------------------------
 
-    def _slot(self, name: str) -> int:
-        if name in self.state_names:
-            return self.state_names.index(name)
-        return self.n + self.index(name)
+    def field_kernel(self) -> MeshKernel:
+        """``kernel(X, p, F)`` writes f at the states X (points, n) to F (points, n)."""
+        return self._kernel(kernels.field_kernel(self.tape))
+
+    def jacobian_kernel(self, k: int = 0) -> MeshKernel:
+        """``kernel(X, p, D, F, J)`` writes f to F (points, n) and its derivatives by the states
+        and along the directions D (k, m) of the parameters to J (points, n, n + k).
+        """
+        return self._kernel(kernels.jacobian_kernel(self.tape, k))
+
+    def curvature_kernel(self, k: int = 0) -> MeshKernel:
+        """``kernel(X, p, D, V, W, G)`` writes ``curvature`` to G (points, n + k)."""
+        return self._kernel(kernels.curvature_kernel(self.tape, k))
+
+    def _kernel(self, kernel: Kernel) -> MeshKernel:
+        return mesh_kernel(kernel, self.field, self.tape, self._sampled)
 
     def _sampled(self, points: Array, order: int) -> Array:
-        sampled = np.empty((len(points), len(self.tape.sampled), order + 1))
-        for i, (name, state) in enumerate(self.tape.sampled):
-            sampled[:, i] = self.functions[name].taylor(points[:, state], order)
-            outside = ~np.isfinite(sampled[:, i]).all(axis=-1)
-            if outside.any():
-                x = as_tuple(points[np.argmax(outside)])
-                raise NotFinite(f"sampled function {name}, outside its range", x, self.state_names)
-        return sampled
+        return sampling.sampled(self.tape, self.functions, points, order, self.state_names)
 
-    # --- derivatives of any order --------------------------------------------------------------
+    # --- higher derivatives --------------------------------------------------------------------
+
+    def curvature(
+        self,
+        x: ArrayLike,
+        p: Array | None,
+        v: ArrayLike,
+        psi: ArrayLike,
+        along: ArrayLike | None = None,
+    ) -> Array:
+        """Gradient of psi . (Df(x, p) v) by the states and along the directions of the parameters
+        ``along`` (k, m): shape x.shape[:-1] + (n + k,), exact.
+
+        v and psi have the shape of x, or one row for all points. Compiled once for every k.
+        """
+        states, rows = np.asarray(x, dtype=np.float64), self._along(along)
+        points = self._points(states)
+        v, psi = (np.broadcast_to(np.asarray(a, float), states.shape) for a in (v, psi))
+        out = np.empty((len(points), self.n + len(rows)))
+        kernel = self.curvature_kernel(len(rows))
+        kernel(points, self._vector(p), rows, self._points(v), self._points(psi), out)
+        return out.reshape((*states.shape[:-1], self.n + len(rows)))
 
     def form(self, x: ArrayLike, p: Array | None, *directions: ArrayLike) -> NDArray[Any]:
         """The multilinear form D^k f(x, p)[v_1, ..., v_k], shape (n,), exact.
@@ -185,26 +234,24 @@ class System:
         Directions have length n (along the state) or n + m (along state and parameters), and may
         be complex. Nothing is compiled for a model.
         """
-        state = np.asarray(x, dtype=np.float64)
-        [(p_region, _)] = regions.split(self.field, state[np.newaxis], self._vector(p))
-        rows = [np.asarray(v) for v in directions]
-        kind = np.complex128 if any(row.dtype.kind == "c" for row in rows) else np.float64
-        packed = np.zeros((len(rows), self.n + len(p_region)), dtype=kind)
-        for i, row in enumerate(rows):
-            packed[i, : len(row)] = row
-        return self._propagate(state, p_region, packed)[:, -1]
+        return self.forms(np.asarray(x, dtype=np.float64)[np.newaxis], p, *directions)[0]
 
-    def _propagate(self, x: Array, p: Array, directions: NDArray[Any]) -> NDArray[Any]:
-        """All coefficients of f along the directions, shape (n, 2^k)."""
-        order, (code, constants) = len(directions), self.tape.packed
-        sampled = self._sampled(x[np.newaxis], max(order, 1))[0]
-        slots = multidual.propagate(code, constants, np.concatenate([x, p]), directions, sampled)
-        domain.check_orders(self.tape, slots[:, 0].real, order, x, self.state_names)
-        out = slots[self.tape.output_slots]
-        if not cmath.isfinite(out.sum()):
-            bad = ~np.asarray(np.isfinite(slots).all(axis=1))
-            raise domain.not_finite(self.tape, bad, x, self.state_names)
+    def forms(self, x: ArrayLike, p: Array | None, *directions: ArrayLike) -> NDArray[Any]:
+        """The form at many points x (points, n) at once, shape (points, n).
+
+        Directions as in ``form``, one for all points or one row a point.
+        """
+        points, vector = self._points(np.asarray(x, dtype=np.float64)), self._vector(p)
+        rows = forms.packed(self.tape, len(points), [np.asarray(v) for v in directions])
+        if self.field.switch is None:
+            return self._forms(points, vector, rows)
+        out = np.empty(points.shape, rows.dtype)
+        for p_region, chosen in regions.split(self.field, points, vector):
+            out[chosen] = self._forms(points[chosen], p_region, rows[chosen])
         return out
+
+    def _forms(self, points: Array, p: Array, directions: NDArray[Any]) -> NDArray[Any]:
+        return forms.forms(self.tape, points, p, directions, self._sampled, self.state_names)
 
     # --- named quantities on arrays ------------------------------------------------------------
 

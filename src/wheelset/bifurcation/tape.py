@@ -2,7 +2,7 @@
 
 The tape is the one intermediate form between sympy and numbers. It is read by three evaluators:
 ``arrays`` (numpy, any shape, every named quantity), ``multidual`` (derivatives of any order) and
-``codegen`` (numba source for f and exact Jacobians).
+``recording`` (programs for machine code: f, exact Jacobians, curvatures).
 
 Slots are numbered: [ state n | parameters m | operations ... ].
 """
@@ -48,6 +48,12 @@ class Operation:
     c: int = 0
     k: float = 0.0
 
+    @property
+    def arguments(self) -> tuple[int, ...]:
+        """The slots it is applied to; of a choice, the one that decides comes first."""
+        count = {Kind.CONSTANT: 0, Kind.ADD: 2, Kind.MUL: 2, Kind.SELECT: 3}
+        return (self.a, self.b, self.c)[: count.get(self.kind, 1)]
+
 
 @dataclass(frozen=True, eq=False)
 class Tape:
@@ -69,11 +75,13 @@ class Tape:
     sampled: tuple[tuple[str, int], ...]
 
     @cached_property
-    def packed(self) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-        """(kind, a, b, c) as rows of an integer array, and the constants."""
+    def packed(self) -> tuple[NDArray[np.uint64], NDArray[np.float64]]:
+        """(kind, a, b, c) as rows of an array of integers, unsigned since compiled code is quicker
+        with indices that cannot count from the end; and the constants.
+        """
         rows = [(o.kind, o.a, o.b, o.c) for o in self.operations]
         return (
-            np.array(rows, dtype=np.int64).reshape(-1, 4),
+            np.array(rows, dtype=np.uint64).reshape(-1, 4),
             np.array([o.k for o in self.operations], dtype=np.float64),
         )
 
@@ -81,6 +89,14 @@ class Tape:
     def output_slots(self) -> NDArray[np.int64]:
         """``outputs`` as an index array."""
         return np.array(self.outputs, dtype=np.int64)
+
+    @cached_property
+    def fixed(self) -> NDArray[np.bool_]:
+        """Which operations depend on parameters only."""
+        still = [False] * self.n + [True] * self.m
+        for o in self.operations:
+            still.append(o.kind != Kind.SAMPLED and all(still[a] for a in o.arguments))
+        return np.array(still[self.n + self.m :], dtype=np.bool_)
 
     def name_of(self, slot: int) -> str:
         """The first named quantity at or after a slot: for messages."""
