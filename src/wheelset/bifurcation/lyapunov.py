@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from wheelset.bifurcation.outcomes import NoConvergence
 from wheelset.bifurcation.system import System
+from wheelset.bifurcation.zero_problem import SingularSystem
 
 Array = NDArray[np.float64]
 
@@ -54,13 +55,23 @@ def first_lyapunov(system: System, x: Array, p: Array, pair: CriticalPair) -> fl
     """FLC = 1/2 Re <p, C(q,q,q-) + 2 B(q,h11) + B(q-,h20)> at a Hopf point (x, p).
 
     With h11 = -A^-1 B(q,q-) and h20 = (2iw - A)^-1 B(q,q). It is MATCONT's number: not divided by
-    w (Kuznetsov's l1 = FLC / w), and dependent on the units of the state, here SI.
+    w (Kuznetsov's l1 = FLC / w), and dependent on the units of the state, here SI. Raises
+    SingularSystem where 0 or 2iw is an eigenvalue too, or the field's own outcome.
     Kuznetsov, Elements of Applied Bifurcation Theory, Eq. (5.39).
     """
-    q, conj, identity = pair.q, pair.q.conj(), np.eye(system.n)
-    h11 = -np.linalg.solve(pair.jacobian, system.form(x, p, q, conj))
-    h20 = np.linalg.solve(2j * pair.frequency * identity - pair.jacobian, system.form(x, p, q, q))
+    q, conj = pair.q, pair.q.conj()
+    h11 = resolvent(pair, 0, system.form(x, p, q, conj))
+    h20 = resolvent(pair, 2, system.form(x, p, q, q))
     cubic = (
         system.form(x, p, q, q, conj) + 2 * system.form(x, p, q, h11) + system.form(x, p, conj, h20)
     )
     return float(np.vdot(pair.p, cubic).real / 2)
+
+
+def resolvent(pair: CriticalPair, multiple: int, rhs: NDArray[Any]) -> NDArray[Any]:
+    """(multiple i w - A)^-1 rhs; SingularSystem where that is an eigenvalue too."""
+    shift = multiple * 1j * pair.frequency * np.eye(len(rhs))
+    try:
+        return np.asarray(np.linalg.solve(shift - pair.jacobian, rhs))
+    except np.linalg.LinAlgError:
+        raise SingularSystem(f"A - {multiple} i w, beside a pair +-i w") from None
