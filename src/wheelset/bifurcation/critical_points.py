@@ -58,6 +58,6 @@ def finding(curve: CriticalCurve, test: str, point: Point) -> Finding:
 
 
 def _complex_pair(point: Point) -> bool:
-    values = point.linearisation.floquet.nontrivial
+    values = np.array(point.linearisation.floquet.nontrivial)
     near = np.abs(np.abs(values) - 1) < 1e-4
     return bool((near & (np.abs(values.imag) > 1e-6)).any())

@@ -59,7 +59,7 @@ def _flip(curve: CycleCurve, point: Point) -> Finding:
 
 
 def _torus(curve: CycleCurve, point: Point) -> Finding:
-    values = point.linearisation.floquet.nontrivial
+    values = np.array(point.linearisation.floquet.nontrivial)
     i = _reciprocal(values)
     if abs(values[i].imag) < 1e-6:
         words = "two real multipliers with product one: a neutral saddle, not a bifurcation"

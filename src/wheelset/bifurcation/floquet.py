@@ -8,6 +8,7 @@ N = S Phi(T/2) for half a period of a symmetric cycle, where M = N^2.
 from __future__ import annotations
 
 import cmath
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
@@ -64,19 +65,19 @@ class Floquet:
         return np.asarray(values[np.argsort(-np.abs(values), kind="stable")])
 
     @cached_property
-    def nontrivial(self) -> NDArray[Any]:
-        """What was computed without the trivial multiplier, (n - 1,)."""
-        return _without(self.computed, 1.0)
+    def nontrivial(self) -> tuple[complex, ...]:
+        """What was computed without the trivial multiplier, n - 1 numbers."""
+        return _without(self.computed.tolist(), 1.0)
 
     @property
     def trivial_error(self) -> float:
         """Distance of the trivial multiplier from +1."""
-        return float(np.abs(self.computed - 1).min())
+        return min(abs(value - 1) for value in self.computed.tolist())
 
     @property
     def unstable(self) -> int:
         """Number of multipliers outside the unit circle."""
-        return int((np.abs(self.nontrivial) > 1 + UNIT).sum())
+        return sum(abs(value) > 1 + UNIT for value in self.nontrivial)
 
     @property
     def torus(self) -> float:
@@ -100,7 +101,7 @@ class Floquet:
         """prod (mu_i + 1) over what was computed, each factor scaled by 1 + |mu_i|: zero where a
         period doubles, or, on half a period, where the symmetry breaks.
         """
-        return _product(self.computed, -1.0)
+        return _product(self.computed.tolist(), -1.0)
 
 
 @njit(cache=True, error_model="numpy")
@@ -134,23 +135,23 @@ def _pencil_values(G: Array, ES: Array) -> tuple[NDArray[Any], int]:
     return values, info or int(not beta.all())
 
 
-def _product(values: NDArray[Any], critical: float) -> float:
+def _product(values: Sequence[complex], critical: float) -> float:
     """prod (mu_i - critical)/(1 + |mu_i|)."""
     product = 1.0 + 0.0j
-    for value in values.tolist():
+    for value in values:
         product *= (value - critical) / (1 + abs(value))
     return product.real
 
 
-def _without(values: NDArray[Any], one: float) -> NDArray[Any]:
+def _without(values: Sequence[complex], one: float) -> tuple[complex, ...]:
     """Values without the one nearest to a number."""
-    nearest = int(np.abs(values - one).argmin())
-    return values[np.arange(len(values)) != nearest]
+    nearest = min(range(len(values)), key=lambda i: abs(values[i] - one))
+    return (*values[:nearest], *values[nearest + 1 :])
 
 
-def _pairs(values: NDArray[Any]) -> float:
+def _pairs(values: Sequence[complex]) -> float:
     """prod (mu_i mu_j - 1)/(1 + |mu_i mu_j|) over pairs."""
     product = 1.0 + 0.0j
-    for a, b in combinations(values.tolist(), 2):
+    for a, b in combinations(values, 2):
         product *= (a * b - 1) / (1 + abs(a * b))
     return product.real

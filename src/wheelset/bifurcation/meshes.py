@@ -23,13 +23,28 @@ FLOOR = 0.1
 
 def derivative(space: Collocation, orbit: Orbit) -> Array:
     """Scaled norm of the derivative of order m + 1 on each interval, (N,)."""
-    h, m = space.h, space.rule.m
-    highest = np.einsum("k,jkn->jn", space.rule.leading, orbit.nodes) * math.factorial(m)
-    highest /= h[:, np.newaxis] ** m * space.scales
-    following = np.concatenate([highest[1:], space.signs * highest[:1]])
-    gaps = (h + np.roll(h, -1)) / 2
-    jumps = np.linalg.norm(following - highest, axis=1) / gaps
-    return (jumps + np.roll(jumps, 1)) / 2
+    weights = space.rule.leading * math.factorial(space.rule.m)
+    return _derivative(orbit.nodes, space.h, weights, space.signs, space.scales)
+
+
+@njit(cache=True, error_model="numpy")
+def _derivative(nodes: Array, h: Array, weights: Array, signs: Array, scales: Array) -> Array:
+    """weights (m + 1,): of the values, for the m-th derivative on an interval of length one."""
+    N, width, n = nodes.shape
+    highest, jumps = np.zeros((N + 1, n)), np.empty(N)
+    for j in range(N):
+        for r in range(n):
+            for k in range(width):
+                highest[j, r] += weights[k] * nodes[j, k, r]
+            highest[j, r] /= h[j] ** (width - 1) * scales[r]
+    highest[N] = signs * highest[0]
+    for j in range(N):  # at the right end of interval j
+        jump = np.sqrt(((highest[j + 1] - highest[j]) ** 2).sum())
+        jumps[j] = jump / (0.5 * (h[j] + h[(j + 1) % N]))
+    density = np.empty(N)
+    for j in range(N):
+        density[j] = 0.5 * (jumps[j] + jumps[j - 1])
+    return density
 
 
 def interior_error(space: Collocation, orbit: Orbit) -> float:
