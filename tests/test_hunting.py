@@ -11,7 +11,7 @@ from numpy.polynomial import Polynomial
 from scipy.interpolate import CubicSpline
 
 from tests.vehicle.readings import M1, reading
-from wheelset.bifurcation.hopf import hopf_point, instabilities
+from wheelset.bifurcation.equilibria.hopf import hopf_point, instabilities
 from wheelset.bifurcation.outcomes import NotFinite
 from wheelset.hunting import hunting_system
 from wheelset.vehicle import load_vehicle

@@ -7,9 +7,13 @@ import math
 import numpy as np
 import pytest
 
-from wheelset.bifurcation.endings import LeftDomain, SettledToCycle, SettledToEquilibrium
-from wheelset.bifurcation.events import Crossing, ThresholdPair
-from wheelset.bifurcation.integrate import integrate
+from wheelset.bifurcation.integration.endings import (
+    LeftDomain,
+    SettledToCycle,
+    SettledToEquilibrium,
+)
+from wheelset.bifurcation.integration.events import Crossing, ThresholdPair
+from wheelset.bifurcation.integration.integrate import integrate
 from wheelset.bifurcation.system import System
 from wheelset.hunting import hunting_system
 from wheelset.vehicle import load_vehicle

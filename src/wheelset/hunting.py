@@ -10,8 +10,8 @@ from functools import lru_cache
 
 import sympy as sp
 
-from wheelset.bifurcation.events import ThresholdPair
-from wheelset.bifurcation.field import Condition, Switch, VectorField
+from wheelset.bifurcation.fields.field import Condition, Switch, VectorField
+from wheelset.bifurcation.integration.events import ThresholdPair
 from wheelset.bifurcation.system import System
 from wheelset.vehicle.equations import EquationsOfMotion, equations_of_motion
 from wheelset.vehicle.flange import region

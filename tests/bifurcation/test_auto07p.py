@@ -28,7 +28,7 @@ from benchmarks.auto07p.fortran import problem
 from benchmarks.auto07p.program import AutoFailed
 from benchmarks.auto07p.script import write_script
 from tests.systems import TOY, TOY_HOPF, closed_form_critical_speed, hopf_normal_form
-from wheelset.bifurcation.field import VectorField
+from wheelset.bifurcation.fields.field import VectorField
 from wheelset.bifurcation.system import System
 
 #: LPC of the toy wheelset, on which MATCONT and AUTO-07p agree: a3 -> v, T.

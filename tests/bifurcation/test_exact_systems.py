@@ -35,7 +35,7 @@ from tests.exact_systems import (
     hopf,
     sheared,
 )
-from wheelset.bifurcation.lyapunov import critical_pair, first_lyapunov
+from wheelset.bifurcation.equilibria.lyapunov import critical_pair, first_lyapunov
 
 TIGHT = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-13}
 

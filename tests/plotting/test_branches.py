@@ -8,12 +8,12 @@ import pytest
 from matplotlib.figure import Figure
 
 from tests.systems import toy_wheelset
-from wheelset.bifurcation.branch import Branch, BranchPoint, Ending, SpecialPoint
-from wheelset.bifurcation.cycle import Cycle
-from wheelset.bifurcation.equilibrium_problem import EquilibriumPoint
-from wheelset.bifurcation.hopf import hopf_point
-from wheelset.bifurcation.hopf_curve import hopf_curve
-from wheelset.bifurcation.hopf_points import HopfCurvePoint
+from wheelset.bifurcation.curves.branch import Branch, BranchPoint, Ending, SpecialPoint
+from wheelset.bifurcation.cycles.cycle import Cycle
+from wheelset.bifurcation.equilibria.equilibrium_problem import EquilibriumPoint
+from wheelset.bifurcation.equilibria.hopf import hopf_point
+from wheelset.bifurcation.equilibria.hopf_curve import hopf_curve
+from wheelset.bifurcation.equilibria.hopf_points import HopfCurvePoint
 from wheelset.plotting.branches import MARKS, Quantity, branch_diagram, draw_branch
 from wheelset.plotting.style import save
 

@@ -7,19 +7,19 @@ from dataclasses import dataclass
 
 from numpy.typing import ArrayLike
 
-from wheelset.bifurcation.branch import Branch, SpecialPoint
-from wheelset.bifurcation.continuation import follow
-from wheelset.bifurcation.cycle_curve import CycleCurve
-from wheelset.bifurcation.cycle_start import (
+from wheelset.bifurcation.curves.branch import Branch, SpecialPoint
+from wheelset.bifurcation.curves.continuation import follow
+from wheelset.bifurcation.curves.steps import StepControl
+from wheelset.bifurcation.cycles.cycle_curve import CycleCurve
+from wheelset.bifurcation.cycles.cycle_start import (
     Discretisation,
     Start,
     cycle_from_flip,
     cycle_from_hopf,
 )
-from wheelset.bifurcation.equilibrium_curve import equilibrium_curve
-from wheelset.bifurcation.hopf import hopf_point
+from wheelset.bifurcation.equilibria.equilibrium_curve import equilibrium_curve
+from wheelset.bifurcation.equilibria.hopf import hopf_point
 from wheelset.bifurcation.outcomes import NumericalOutcome
-from wheelset.bifurcation.steps import StepControl
 from wheelset.bifurcation.system import System
 
 #: Two Hopf points nearer than this, relative to the window, are one.

@@ -12,12 +12,13 @@ import numpy as np
 import sympy as sp
 from numpy.typing import ArrayLike, NDArray
 
-from wheelset.bifurcation import arrays, domain, forms, kernels, regions, sampling
-from wheelset.bifurcation.batched import MeshKernel, mesh_kernel
-from wheelset.bifurcation.field import VectorField, vector_field
-from wheelset.bifurcation.kernels import Kernel
-from wheelset.bifurcation.sampling import TaylorFunction
-from wheelset.bifurcation.tape import Tape, record
+from wheelset.bifurcation.compiled import kernels
+from wheelset.bifurcation.compiled.batched import MeshKernel, mesh_kernel
+from wheelset.bifurcation.compiled.kernels import Kernel
+from wheelset.bifurcation.fields import arrays, domain, forms, regions, sampling
+from wheelset.bifurcation.fields.field import VectorField, vector_field
+from wheelset.bifurcation.fields.sampling import TaylorFunction
+from wheelset.bifurcation.fields.tape import Tape, record
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ from wheelset.cli.errors import clear_errors, error_console
 from wheelset.cli.tables import show_json, show_table
 
 if TYPE_CHECKING:
-    from wheelset.bifurcation.trajectory import Trajectory
+    from wheelset.bifurcation.integration.trajectory import Trajectory
     from wheelset.vehicle import Vehicle
 
 #: Spacing of the rows of a CSV file, s; the time at the end that counts as late, s.
@@ -87,7 +87,7 @@ def hopf(
     Hopf points come with their frequency and first Lyapunov coefficient (FLC, MATCONT's
     normalisation in SI units): negative is supercritical, positive subcritical.
     """
-    from wheelset.bifurcation.hopf import instabilities
+    from wheelset.bifurcation.equilibria.hopf import instabilities
     from wheelset.bifurcation.outcomes import NumericalOutcome
     from wheelset.hunting import hunting_system
     from wheelset.vehicle import load_vehicle
@@ -147,7 +147,7 @@ def simulate(
     as_json: AsJson = False,
 ) -> None:
     """Run the wheelset down straight track from a disturbance and say what becomes of it."""
-    from wheelset.bifurcation.integrate import integrate
+    from wheelset.bifurcation.integration.integrate import integrate
     from wheelset.hunting import flange_contact, hunting_system
     from wheelset.vehicle import load_vehicle
 
@@ -186,7 +186,11 @@ def _write_csv(trajectory: Trajectory, path: Path) -> None:
 
 
 def _trajectory_record(trajectory: Trajectory) -> dict[str, Any]:
-    from wheelset.bifurcation.endings import ReachedEnd, SettledToCycle, SettledToEquilibrium
+    from wheelset.bifurcation.integration.endings import (
+        ReachedEnd,
+        SettledToCycle,
+        SettledToEquilibrium,
+    )
 
     outcome = trajectory.outcome
     late = trajectory.t >= trajectory.t[-1] - LAST

@@ -11,9 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Annotation, Text
 
-from wheelset.bifurcation.branch import Branch, BranchPoint, SpecialPoint
-from wheelset.bifurcation.equilibrium_problem import EquilibriumPoint
-from wheelset.bifurcation.hopf_points import HopfCurvePoint
+from wheelset.bifurcation.curves.branch import Branch, BranchPoint, SpecialPoint
+from wheelset.bifurcation.equilibria.equilibrium_problem import EquilibriumPoint
+from wheelset.bifurcation.equilibria.hopf_points import HopfCurvePoint
 from wheelset.plotting.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, panels, styled
 
 COLORS = (BLUE, ORANGE, GREEN, PURPLE, SKY)

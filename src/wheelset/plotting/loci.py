@@ -9,7 +9,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from wheelset.bifurcation.equilibrium import EigenvalueLoci
+from wheelset.bifurcation.equilibria.equilibrium import EigenvalueLoci
 from wheelset.plotting.style import FAINT, OTHER, OURS, PAPER, panels, styled
 
 

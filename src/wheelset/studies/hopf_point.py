@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 from pydantic import Field
 
-from wheelset.bifurcation.equilibrium import EigenvalueLoci, eigenvalue_loci
+from wheelset.bifurcation.equilibria.equilibrium import EigenvalueLoci, eigenvalue_loci
 from wheelset.hunting import hunting_system
 from wheelset.studies.hopf_rows import first_hopf, hopf_row, stability_changes
 from wheelset.studies.parameters import VehicleName, WindowParameters

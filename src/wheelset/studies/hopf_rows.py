@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from wheelset.bifurcation.hopf import HopfPoint, StabilityChange, instabilities
+from wheelset.bifurcation.equilibria.hopf import HopfPoint, StabilityChange, instabilities
 from wheelset.hunting import hunting_system
 from wheelset.vehicle import load_vehicle
 

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from wheelset.bifurcation.endings import ReachedEnd
-from wheelset.bifurcation.integrate import integrate
-from wheelset.bifurcation.trajectory import Trajectory
+from wheelset.bifurcation.integration.endings import ReachedEnd
+from wheelset.bifurcation.integration.integrate import integrate
+from wheelset.bifurcation.integration.trajectory import Trajectory
 from wheelset.hunting import hunting_system
 from wheelset.studies.flange_models import Parameters
 from wheelset.vehicle import load_vehicle

@@ -1,0 +1,1 @@
+"""Numerical bifurcation of x' = f(x, p); knows nothing of wheels."""

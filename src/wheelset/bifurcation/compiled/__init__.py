@@ -1,0 +1,1 @@
+"""Compiled kernels for f and its derivatives at many points."""

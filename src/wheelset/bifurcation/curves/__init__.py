@@ -1,0 +1,1 @@
+"""Zero problems, the one continuer, branches and their files."""

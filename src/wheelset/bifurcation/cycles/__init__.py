@@ -1,0 +1,1 @@
+"""Limit cycles: collocation, multipliers, bifurcations, normal forms, curves."""

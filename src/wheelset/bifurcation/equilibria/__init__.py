@@ -1,0 +1,1 @@
+"""Equilibria, Hopf points and curves, Lyapunov coefficients."""

@@ -1,0 +1,1 @@
+"""Time integration with events, corners and settling."""
