@@ -1,5 +1,10 @@
-"""Run every benchmark: ``python -m benchmarks``."""
+"""Run every benchmark, or those named: ``python -m benchmarks engine``."""
 
-from benchmarks import front_door
+import sys
 
-front_door.main()
+from benchmarks import engine, front_door
+
+BENCHMARKS = {"front_door": front_door.main, "engine": engine.main}
+
+for name in sys.argv[1:] or BENCHMARKS:
+    BENCHMARKS[name]()

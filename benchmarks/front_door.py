@@ -18,7 +18,7 @@ from time import perf_counter
 
 import numpy as np
 
-from wheelset.bifurcation.hopf import hopf_point, instabilities
+from wheelset.bifurcation.equilibria.hopf import hopf_point, instabilities
 from wheelset.bifurcation.system import System
 from wheelset.hunting import hunting_system
 from wheelset.vehicle import load_vehicle

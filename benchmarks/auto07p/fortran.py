@@ -14,7 +14,7 @@ from pathlib import Path
 import sympy as sp
 from sympy.printing.fortran import FCodePrinter
 
-from wheelset.bifurcation.field import Assignment, VectorField
+from wheelset.bifurcation.fields.field import Assignment, VectorField
 from wheelset.bifurcation.system import System
 
 #: AUTO keeps PAR(11) for the period and PAR(10) for time; free parameters take the slots below.

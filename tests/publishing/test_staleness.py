@@ -72,6 +72,12 @@ def test_parameters_make_it_stale(published):
     assert other.why_stale("1_toy") == "changed: parameters"
 
 
+def test_a_further_file_it_reads_makes_it_stale(published):
+    reads = replace(published.sources[0], reads=("measured.json",))
+    with_file = Edition(published.layout, (reads,), {"1_toy": {}})
+    assert with_file.why_stale("1_toy") == "changed: measured.json"
+
+
 def test_results_it_reads_make_it_stale(published):
     reads = replace(published.sources[0], after=("2_other",))
     other = replace(published.sources[0], path=published.layout.sources / "2_other.ipynb")

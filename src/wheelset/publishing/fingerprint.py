@@ -65,4 +65,5 @@ def fingerprint(
         "lock": hash_file(layout.lock),
         "python": f"{sys.version_info.major}.{sys.version_info.minor}",
         **{f"results of {stem}": hash_file(layout.record_of(stem)) for stem in before},
+        **{name: hash_file(layout.root / name) for name in source.reads},
     }

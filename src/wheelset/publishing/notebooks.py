@@ -21,7 +21,7 @@ import nbformat
 from wheelset.publishing.errors import InputError, did_you_mean
 
 ALL = "*"
-_KEYS = {"study", "after", "outputs"}
+_KEYS = {"study", "after", "outputs", "reads"}
 
 
 @dataclass(frozen=True)
@@ -33,6 +33,7 @@ class Source:
         study: the module of `wheelset.studies` whose `Parameters` the notebook takes, if any.
         after: notebooks whose results it reads; `*` stands for all that name no `*` themselves.
         outputs: files it must have written, relative to the folder it runs in.
+        reads: further files it reads, relative to the project's folder.
         cells: how many cells it has.
     """
 
@@ -40,6 +41,7 @@ class Source:
     study: str | None = None
     after: tuple[str, ...] = ()
     outputs: tuple[str, ...] = ()
+    reads: tuple[str, ...] = ()
     cells: int = 0
 
     @property
@@ -66,6 +68,7 @@ def read_source(path: Path) -> Source:
         study=facts.get("study"),
         after=tuple(facts.get("after", ())),
         outputs=tuple(facts.get("outputs", ())),
+        reads=tuple(facts.get("reads", ())),
         cells=len(notebook.cells),
     )
 

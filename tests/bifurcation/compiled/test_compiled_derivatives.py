@@ -8,9 +8,9 @@ import mpmath as mp
 import numpy as np
 import pytest
 import sympy as sp
-from tests.bifurcation.fields.test_derivatives import POINTS, every_operation
 
 from tests import independent_model
+from tests.bifurcation.fields.test_derivatives import POINTS, every_operation
 from tests.systems import toy_wheelset
 from tests.vehicle.readings import reading
 from tests.vehicle.test_equations import ASYMMETRIC, READINGS, SCALE

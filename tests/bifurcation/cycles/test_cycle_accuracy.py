@@ -5,6 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from tests.exact_systems import LORENZ_AB, VAN_DER_POL, adaptive_control, lorenz, van_der_pol
+from tests.systems import toy_wheelset
 from wheelset.bifurcation.curves.continuation import follow
 from wheelset.bifurcation.cycles.accuracy import cycle_error
 from wheelset.bifurcation.cycles.cycle_curve import Meshing
@@ -100,3 +101,28 @@ def test_intervals_are_added_until_the_accuracy_is_reached():
     last = branch.points[-1].solution
     assert len(last.mesh) > 11
     assert cycle_error(system, last, "mu").greatest < 1e-8
+
+
+@pytest.mark.parametrize(
+    ("make", "parameter", "near", "kind", "coefficient"),
+    [
+        (lambda: toy_wheelset(100.0), "v", 50.0, "LPC", "b"),
+        (adaptive_control, "alpha", 1.0, "PD", "c"),
+    ],
+)
+def test_reported_numbers_are_stable_under_mesh_doubling(make, parameter, near, kind, coefficient):
+    found, coefficients = [], []
+    for intervals in (40, 80):
+        system = make()
+        start = cycle_from_hopf(
+            system, hopf_point(system, parameter, near), 10.0 if kind == "LPC" else 1.0,
+            discretisation=Discretisation(intervals, None, Meshing(5, None)),
+        )  # fmt: skip
+        branch = follow(start.problem, start.u, direction=start.tangent, steps=130)
+        point = branch.of_kind(kind)[0]
+        size = point.solution.measure(f"rms {system.state_names[0]}")
+        found.append([point.values[0], point.solution.period, size])
+        coefficients.append(point.coefficients[coefficient])
+    assert found[0] == pytest.approx(found[1], rel=1e-8)
+    # b grows like 1/(dT/ds), here 1e-2, and takes the location's rounding with it
+    assert coefficients[0] == pytest.approx(coefficients[1], rel=1e-7)

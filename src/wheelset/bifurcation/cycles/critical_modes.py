@@ -95,10 +95,20 @@ def _fitted(
     """w0 = -psi / weights, of length one: psi . w0 is negative, so psi keeps its sense; and the
     row of (v, S), of length one.
     """
-    size = np.sqrt((weights * v**2).sum() + (S / period_size) ** 2)
-    column = -psi / weights
-    column /= np.sqrt((weights * column**2).sum())
-    return column, weights * v / size, S / period_size**2 / size
+    size, length = (S / period_size) ** 2, 0.0
+    column, stages = np.empty(weights.shape), np.empty(weights.shape)
+    for j in range(weights.shape[0]):
+        for i in range(weights.shape[1]):
+            for r in range(weights.shape[2]):
+                size += weights[j, i, r] * v[j, i, r] ** 2
+                length += psi[j, i, r] ** 2 / weights[j, i, r]
+    size, length = np.sqrt(size), np.sqrt(length)
+    for j in range(weights.shape[0]):
+        for i in range(weights.shape[1]):
+            for r in range(weights.shape[2]):
+                column[j, i, r] = -psi[j, i, r] / (weights[j, i, r] * length)
+                stages[j, i, r] = weights[j, i, r] * v[j, i, r] / size
+    return column, stages, S / period_size**2 / size
 
 
 def critical_mode(

@@ -48,8 +48,8 @@ class Floquet:
         """Multipliers from the factors of the linearised equations."""
         G, E = factors.pencil
         signs = factors.collocation.signs
-        formed, matrix = _monodromy(G, E, signs, GROWTH)
-        if formed:
+        matrix = -G
+        if _solved(E * signs, matrix) < GROWTH:
             real, imaginary, _, _, info = dgeev(matrix, compute_vl=0, compute_vr=0)
             values = real + 1j * imaginary
         else:  # E is nearly singular where modes grow much: the pencil, which bears that
@@ -105,27 +105,40 @@ class Floquet:
 
 
 @njit(cache=True, error_model="numpy")
-def _monodromy(G: Array, E: Array, signs: Array, most: float) -> tuple[bool, Array]:
-    """-(E S)^-1 G by elimination with row pivoting; False where an entry exceeds ``most``."""
-    n = G.shape[0]
-    A, B = E * signs, -G
+def _swap(M: Array, first: int, second: int) -> None:
+    for c in range(M.shape[1]):
+        M[first, c], M[second, c] = M[second, c], M[first, c]
+
+
+@njit(cache=True, error_model="numpy")
+def _subtract(M: Array, row: int, factor: float, pivot: int) -> None:
+    for c in range(M.shape[1]):
+        M[row, c] -= factor * M[pivot, c]
+
+
+@njit(cache=True, error_model="numpy")
+def _solved(A: Array, B: Array) -> float:
+    """B <- A^-1 B by elimination with row pivoting; its greatest entry, inf where A is singular."""
+    n, most = A.shape[0], 0.0
     for k in range(n):
         best = k
         for i in range(k + 1, n):
             if abs(A[i, k]) > abs(A[best, k]):
                 best = i
         if not abs(A[best, k]) > 0.0:
-            return False, B
-        for M in (A, B):
-            swapped = M[k].copy()
-            M[k], M[best] = M[best], swapped
+            return np.inf
+        _swap(A, k, best)
+        _swap(B, k, best)
         for i in range(n):
-            factor = A[i, k] / A[k, k] if i != k else 0.0
-            A[i] -= factor * A[k]
-            B[i] -= factor * B[k]
+            if i != k:
+                factor = A[i, k] / A[k, k]
+                _subtract(A, i, factor, k)
+                _subtract(B, i, factor, k)
     for k in range(n):
-        B[k] /= A[k, k]
-    return bool(np.abs(B).max() < most), B
+        for c in range(n):
+            B[k, c] /= A[k, k]
+            most = max(most, abs(B[k, c]))
+    return most
 
 
 def _pencil_values(G: Array, ES: Array) -> tuple[NDArray[Any], int]:
