@@ -19,6 +19,7 @@ from numba import njit
 from numpy.typing import NDArray
 from scipy.linalg.lapack import dgeev, dggev
 
+from wheelset.bifurcation.cycles.dense import gauss_elimination
 from wheelset.bifurcation.cycles.factors import Factors
 from wheelset.bifurcation.outcomes import NoConvergence
 
@@ -105,39 +106,12 @@ class Floquet:
 
 
 @njit(cache=True, error_model="numpy")
-def _swap(M: Array, first: int, second: int) -> None:
-    for c in range(M.shape[1]):
-        M[first, c], M[second, c] = M[second, c], M[first, c]
-
-
-@njit(cache=True, error_model="numpy")
-def _subtract(M: Array, row: int, factor: float, pivot: int) -> None:
-    for c in range(M.shape[1]):
-        M[row, c] -= factor * M[pivot, c]
-
-
-@njit(cache=True, error_model="numpy")
 def _solved(A: Array, B: Array) -> float:
-    """B <- A^-1 B by elimination with row pivoting; its greatest entry, inf where A is singular."""
-    n, most = A.shape[0], 0.0
-    for k in range(n):
-        best = k
-        for i in range(k + 1, n):
-            if abs(A[i, k]) > abs(A[best, k]):
-                best = i
-        if not abs(A[best, k]) > 0.0:
-            return np.inf
-        _swap(A, k, best)
-        _swap(B, k, best)
-        for i in range(n):
-            if i != k:
-                factor = A[i, k] / A[k, k]
-                _subtract(A, i, factor, k)
-                _subtract(B, i, factor, k)
-    for k in range(n):
-        for c in range(n):
-            B[k, c] /= A[k, k]
-            most = max(most, abs(B[k, c]))
+    """B <- A^-1 B; its greatest entry, inf where A is singular."""
+    most = 0.0 if gauss_elimination(A, B) != 0.0 else np.inf
+    for r in range(B.shape[0]):
+        for c in range(B.shape[1]):
+            most = max(most, abs(B[r, c]))
     return most
 
 
