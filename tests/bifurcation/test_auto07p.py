@@ -27,12 +27,10 @@ from benchmarks.auto07p.files import iterations, point_type, read_table
 from benchmarks.auto07p.fortran import problem
 from benchmarks.auto07p.program import AutoFailed
 from benchmarks.auto07p.script import write_script
-from tests.systems import TOY, TOY_HOPF, closed_form_critical_speed, hopf_normal_form
+from tests.systems import TOY, TOY_HOPF, TOY_LPC, closed_form_critical_speed, hopf_normal_form
 from wheelset.bifurcation.fields.field import VectorField
 from wheelset.bifurcation.system import System
 
-#: LPC of the toy wheelset, on which MATCONT and AUTO-07p agree: a3 -> v, T.
-TOY_LPC = {100.0: (49.744661148, 0.153081670254), 50.0: (50.01611031, 0.153229031)}
 #: AUTO prints eleven digits, so a speed near 50 m/s is known to 5e-10.
 PRINT = 6e-10
 FINE = {"jacobian": True, "tolerance": 1e-10, "locate": 1e-7}
@@ -208,7 +206,7 @@ class TestToyWheelset:
     @FORMS
     def test_fold_of_cycles_at_a3_100(self, peers, half):
         fold = first_fold(branch(peers, "toy", half)[2])
-        v, period = TOY_LPC[100.0]
+        v, period, _ = TOY_LPC[100.0]
         assert fold["v"] == pytest.approx(v, abs=PRINT)
         assert fold["T"] == pytest.approx(period, abs=1e-9)
 

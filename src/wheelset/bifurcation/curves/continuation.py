@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from wheelset.bifurcation.curves.branch import Branch, BranchPoint, Ending, joined, parted
 from wheelset.bifurcation.curves.front import Front, Window, start_of
-from wheelset.bifurcation.curves.locate import corrected, unit_tangent
+from wheelset.bifurcation.curves.locate import any_tangent, corrected, unit_tangent
 from wheelset.bifurcation.curves.steps import StepControl
 from wheelset.bifurcation.curves.walk import Walk, arrival
 from wheelset.bifurcation.curves.zero_problem import Point, ZeroProblem
@@ -135,8 +135,7 @@ def first_point(
 def _growing(problem: ZeroProblem, u: Array) -> Array:
     """The curve's direction at u in which the first free parameter grows."""
     linearisation, metric = problem.linearised(u), problem.metric
-    anywhere = np.sqrt(metric) * np.cos(1.0 + np.arange(len(u)))  # across no curve but by accident
-    rough = unit_tangent(linearisation, anywhere, metric)
+    rough = any_tangent(linearisation, metric)
     tangent = unit_tangent(linearisation, metric * rough, metric)
     growth = problem.values(u + tangent)[0] - problem.values(u)[0]
     return -tangent if growth < 0 else tangent

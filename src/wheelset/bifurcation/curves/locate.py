@@ -104,6 +104,12 @@ def unit_tangent(linearisation: Linearisation, row: Array, metric: Array) -> Arr
     return np.asarray(tangent / math.sqrt(metric @ (tangent * tangent)))
 
 
+def any_tangent(linearisation: Linearisation, metric: Array) -> Array:
+    """The curve's direction (N,), of length one, in either sense."""
+    anywhere = np.sqrt(metric) * np.cos(1.0 + np.arange(len(metric)))  # along no curve, or nearly
+    return unit_tangent(linearisation, anywhere, metric)
+
+
 class Found(NamedTuple):
     """Where on a segment: arclength from its first point, the point, the function's value."""
 

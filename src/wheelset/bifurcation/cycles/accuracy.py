@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from wheelset.bifurcation.curves.locate import corrected, unit_tangent
+from wheelset.bifurcation.curves.locate import any_tangent, corrected
 from wheelset.bifurcation.cycles import refinement
 from wheelset.bifurcation.cycles.cycle import Cycle
 from wheelset.bifurcation.cycles.cycle_start import known
@@ -49,9 +49,7 @@ def cycle_error(system: System, cycle: Cycle, parameter: str) -> CycleError:
     """
     curve, u = known(system, cycle, (parameter,), (None,))
     fine, guess = refinement.finer(curve, u)
-    linearisation = fine.linearised(guess)
-    across = np.cos(1.0 + np.arange(len(guess)))  # along no curve but by accident
-    tangent = unit_tangent(linearisation, fine.metric * across, fine.metric)
+    tangent = any_tangent(fine.linearised(guess), fine.metric)
     point = corrected(fine, guess, tangent, 1e-11, 12, 1e-8).point
     better = fine.solution(point)
     scale = np.abs(cycle.nodes).max(axis=(0, 1))

@@ -20,7 +20,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from wheelset.bifurcation.curves.locate import unit_tangent
+from wheelset.bifurcation.curves.locate import any_tangent
 from wheelset.bifurcation.curves.zero_problem import Finding, Point, Renewal
 from wheelset.bifurcation.cycles import critical_modes, critical_points, meshes
 from wheelset.bifurcation.cycles.collocation import Collocation, Orbit
@@ -145,14 +145,14 @@ class CriticalCurve:
 
     def _estimated(self, u: Array) -> float:
         """Estimated error: that of the branch of cycles in the first parameter alone."""
+        if self.cycles.known_error is not None:
+            return self.cycles.known_error
         cycles, free = self.cycles, self.space.split(u).free
         one = replace(self.space, free=self.space.free[:1], p=self.space.parameters(free))
         branch = replace(
             cycles, space=one, sizes=cycles.sizes[:2], metric=np.ascontiguousarray(self.metric[:-1])
         )
-        across = np.cos(1.0 + np.arange(len(u) - 1))  # along no curve but by accident
-        linearisation = branch.linearised(u[:-1])
-        tangent = unit_tangent(linearisation, branch.metric * across, branch.metric)
+        tangent = any_tangent(branch.linearised(u[:-1]), branch.metric)
         return branch.estimated(u[:-1], tangent)
 
     def _moved(self, borders: Borders, space: Collocation) -> Borders:

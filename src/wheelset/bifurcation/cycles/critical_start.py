@@ -8,17 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wheelset.bifurcation.curves.branch import Branch, BranchPoint, SpecialPoint
-from wheelset.bifurcation.curves.locate import corrected
 from wheelset.bifurcation.cycles.critical_curve import GH_END, CriticalCurve
 from wheelset.bifurcation.cycles.cycle import Cycle
 from wheelset.bifurcation.cycles.cycle_curve import MESHING, Anchor, CycleCurve, Meshing
 from wheelset.bifurcation.cycles.cycle_start import (
-    MAX_ITERATIONS,
     Discretisation,
     Start,
     cycle_at_hopf,
     known,
+    last_unknown,
     mode_at,
+    onto,
 )
 from wheelset.bifurcation.equilibria.hopf import HopfPoint, hopf_point
 from wheelset.bifurcation.equilibria.hopf_curve import GHPoint, gh_point
@@ -59,11 +59,7 @@ def pd_from_cycle(
 
 
 def _critical(cycles: CycleCurve, u: Array, flip: bool) -> Start[CriticalCurve]:
-    problem = bordered(cycles, u, flip)
-    across = np.zeros(len(u))
-    across[-1] = 1.0
-    start = corrected(problem, u, across, 1e-10, MAX_ITERATIONS, 1e-8).point
-    return Start(problem, start.u, start.tangent)
+    return onto(bordered(cycles, u, flip), u, last_unknown(u))
 
 
 def bordered(cycles: CycleCurve, u: Array, flip: bool) -> CriticalCurve:
@@ -112,9 +108,7 @@ def _from_gh(
     u = np.append(start.u, value) + size * np.append(start.tangent, 0.0)
     u[-2], u[-3] = near.value, 2 * np.pi / near.frequency
     problem = bordered(CycleCurve.at(space, u, sizes, start.problem.mesh), u, flip=False)
-    away = np.append(start.tangent, 0.0)
-    point = corrected(problem, u, away, 1e-10, MAX_ITERATIONS, 1e-8).point
-    return Start(problem, point.u, point.tangent)
+    return onto(problem, u, np.append(start.tangent, 0.0))
 
 
 def _hopf(system: System, gh: GHPoint, value: float) -> HopfPoint:

@@ -66,11 +66,6 @@ class Cycle:
         first = evaluate(self.mesh, self.nodes, 2 * np.where(second, turns - 0.5, turns))
         return np.where(second[..., np.newaxis], np.array(self.signs) * first, first)
 
-    def samples(self, per_interval: int = SAMPLES) -> Array:
-        """States at equal fractions of every interval computed, (N per_interval, n)."""
-        basis = gauss(self.nodes.shape[1] - 1).basis(np.arange(per_interval) / per_interval)
-        return np.einsum("pk,jkn->jpn", basis, self.nodes).reshape(-1, self.nodes.shape[2])
-
     def extremes(self, state: str) -> tuple[float, float]:
         """Least and greatest value of a state over the cycle, of the polynomials, refined."""
         index = self._index(state)

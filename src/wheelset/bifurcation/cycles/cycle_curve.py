@@ -206,13 +206,20 @@ class CycleCurve:
         """Whether the mesh is renewed after this step."""
         return bool(self.mesh.every) and self.age + 1 >= self.mesh.every
 
-    def estimated(self, u: Array, tangent: Array) -> float:
-        """Error of period and mesh values at a cycle of a branch; 0 where no accuracy is asked."""
+    @property
+    def known_error(self) -> float | None:
+        """The error where it need not be estimated: 0 where no accuracy is asked, the last estimate
+        while that is far below it; else None.
+        """
         if self.mesh.accuracy is None:
             return 0.0
-        if self.unchecked < LEISURE and 0 < self.error < SPARE * self.mesh.accuracy:
-            return self.error
-        return refinement.mesh_error(self, u, tangent)
+        spare = self.unchecked < LEISURE and 0 < self.error < SPARE * self.mesh.accuracy
+        return self.error if spare else None
+
+    def estimated(self, u: Array, tangent: Array) -> float:
+        """Error of period and mesh values at a cycle of a branch."""
+        known = self.known_error
+        return refinement.mesh_error(self, u, tangent) if known is None else known
 
     def renewal(self, u: Array, error: float = 0.0) -> Renewal:
         """The problem anchored at u, where that is due on a mesh that suits an estimated error."""

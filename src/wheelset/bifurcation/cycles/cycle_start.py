@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wheelset.bifurcation.curves.locate import corrected
+from wheelset.bifurcation.curves.zero_problem import ZeroProblem
 from wheelset.bifurcation.cycles import meshes
 from wheelset.bifurcation.cycles.collocation import Collocation, Orbit
 from wheelset.bifurcation.cycles.critical_modes import Borders, Mode, critical_mode
@@ -22,7 +23,7 @@ from wheelset.bifurcation.integration.trajectory import Trajectory
 from wheelset.bifurcation.system import System
 
 Array = NDArray[np.float64]
-Problem = TypeVar("Problem")
+Problem = TypeVar("Problem", bound=ZeroProblem)
 
 #: Components of an eigenvector below this part of the greatest one take no part in the cycle.
 ABSENT = 1e-9
@@ -77,9 +78,7 @@ def cycle_from_hopf(
     cycle in the norm of the state's scales; a cycle of no size leaves period and parameter open.
     """
     seed = cycle_at_hopf(system, hopf, width, discretisation)
-    guess, direction = seed.u + size * seed.tangent, seed.tangent
-    point = corrected(seed.problem, guess, direction, 1e-10, MAX_ITERATIONS, 1e-8).point
-    return Start(seed.problem, point.u, point.tangent)
+    return onto(seed.problem, seed.u + size * seed.tangent, seed.tangent)
 
 
 def cycle_at_hopf(
@@ -240,10 +239,20 @@ def curve_at(
 
 def at_parameter(curve: CycleCurve, guess: Array) -> Start[CycleCurve]:
     """Newton's method onto the cycle with the guess's parameter, and the direction of growth."""
-    across = np.zeros(curve.space.size)
-    across[-1] = 1.0
-    point = corrected(curve, guess, across, 1e-11, MAX_ITERATIONS, 1e-8).point
-    return Start(curve, point.u, point.tangent)
+    return onto(curve, guess, last_unknown(guess), 1e-11)
+
+
+def last_unknown(u: Array) -> Array:
+    """The direction of the last unknown, a parameter, which Newton's method across it keeps."""
+    direction = np.zeros(len(u))
+    direction[-1] = 1.0
+    return direction
+
+
+def onto(problem: Problem, guess: Array, direction: Array, wanted: float = 1e-10) -> Start[Problem]:
+    """The point of a curve that Newton's method reaches across a direction."""
+    point = corrected(problem, guess, direction, wanted, MAX_ITERATIONS, 1e-8).point
+    return Start(problem, point.u, point.tangent)
 
 
 def _orbit_symmetry(
@@ -336,5 +345,4 @@ def _beside(curve: CycleCurve, u: Array, away: Array, size: float) -> Start[Cycl
     """The cycle at a distance from u, found across the direction that leads away."""
     direction = away / np.sqrt(curve.metric @ away**2)
     step = size * (1 + np.sqrt(curve.metric @ u**2))
-    point = corrected(curve, u + step * direction, direction, 1e-10, MAX_ITERATIONS, 1e-8).point
-    return Start(curve, point.u, point.tangent)
+    return onto(curve, u + step * direction, direction)

@@ -47,17 +47,6 @@ def _derivative(nodes: Array, h: Array, weights: Array, signs: Array, scales: Ar
     return density
 
 
-def interior_error(space: Collocation, orbit: Orbit) -> float:
-    """Estimated greatest error of the polynomials between mesh points, in the scaled norm.
-
-    The remainder of interpolation, max |prod (s - c_i)| h^(m+1) |u^(m+1)| / (m + 1)!.
-    """
-    s = np.linspace(0, 1, 65)
-    c = np.concatenate([[0.0], space.rule.c])
-    most = np.abs(np.prod(s[:, np.newaxis] - c, axis=1)).max() / math.factorial(len(c))
-    return float(most * (derivative(space, orbit) * space.h ** len(c)).max())
-
-
 def equidistributed(space: Collocation, orbit: Orbit, intervals: int | None = None) -> Array:
     """Interval lengths (intervals,) that give each the same share of the error."""
     density = derivative(space, orbit) ** (1 / (space.rule.m + 1))

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.linalg.lapack import dgeev
 from scipy.optimize import linear_sum_assignment
 
+from wheelset.bifurcation.equilibria.spectrum import eigenvalues
 from wheelset.bifurcation.outcomes import NoConvergence
 from wheelset.bifurcation.system import System
 
@@ -82,16 +82,8 @@ class EquilibriumPath:
     def eigenvalues(self, value: float) -> NDArray[Any]:
         """Eigenvalues of the Jacobian at the equilibrium, complex, shape (n,)."""
         if value not in self.spectra:
-            self.spectra[value] = _spectrum(self.jacobian(value))
+            self.spectra[value] = eigenvalues(self.jacobian(value))
         return self.spectra[value]
-
-
-def _spectrum(matrix: Array) -> NDArray[Any]:
-    """Eigenvalues, always complex; LAPACK directly, since small matrices are mostly overhead."""
-    real, imaginary, _, _, info = dgeev(matrix, compute_vl=False, compute_vr=False)
-    if info:
-        raise NoConvergence("the eigenvalues of a Jacobian", ())
-    return real + 1j * imaginary
 
 
 @dataclass(frozen=True)
