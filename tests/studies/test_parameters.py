@@ -66,3 +66,20 @@ def test_a_vehicle_that_cannot_be_loaded_is_refused_before_anything_runs(study):
     field = next(name for name in model.model_fields if name.startswith("vehicle"))
     with pytest.raises(ValidationError, match='unknown vehicle "guo2020"'):
         model(**{field: "guo2020"})
+
+
+def test_a_readers_change_wins_over_the_studys_choice_and_loses_to_a_tables_row():
+    p = parameters_of("hopf_point")(changes="a1=0.3, flange_law=quintic")
+    loaded = p.load("guo2021", given=["flange_law=exponential", "a3=200"], rows=["a1=0.05"])
+    assert loaded.options.flange_law == "quintic"
+    assert (loaded.values["a1"], loaded.values["a3"]) == (0.05, 200.0)
+
+
+@pytest.mark.parametrize("study", STUDIES.values())
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [("a9=1", 'unknown parameter or option "a9"'), ("a1", "not of the form"), ("mw=-1", "mw > 0")],
+)
+def test_changes_are_refused_before_anything_runs(study, changes, words):
+    with pytest.raises(ValidationError, match=words):
+        parameters_of(study)(changes=changes)

@@ -38,6 +38,12 @@ def run(
         list[str] | None,
         typer.Option("--parameter", "-p", help="name=value; may be given several times."),
     ] = None,
+    overrides: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set", help="Change of the vehicle, name=value; may be given several times."
+        ),
+    ] = None,
     output: Annotated[
         Path | None, typer.Option(help="Folder of the run; default runs/NOTEBOOK-<hash>.")
     ] = None,
@@ -58,10 +64,15 @@ def run(
         page = run_notebook(
             find_root(here),
             notebook,
-            parameters or [],
+            [*(parameters or []), *_changes(overrides or [])],
             progress,
             here=here,
             output=output and output.resolve(),
             html=html,
         )
     typer.echo(page)
+
+
+def _changes(overrides: list[str]) -> list[str]:
+    """Changes of the vehicle as the parameter of that name, which every study has."""
+    return [f"changes={', '.join(overrides)}"] if overrides else []

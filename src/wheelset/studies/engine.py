@@ -66,7 +66,7 @@ class Parameters(StudyParameters):
 def examples(p: Parameters) -> Iterator[Example]:
     """The toy wheelset, the vehicle, and van der Pol's oscillator."""
     yield wheelset_cycle("toy wheelset", toy_wheelset())
-    vehicle = load_vehicle(p.vehicle, overrides=list(OVERRIDES))
+    vehicle = p.load(p.vehicle, OVERRIDES)
     yield wheelset_cycle(p.vehicle, hunting_system(vehicle))
     yield oscillator_cycle()
 

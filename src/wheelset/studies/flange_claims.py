@@ -13,7 +13,6 @@ import numpy as np
 import pandas as pd
 
 from wheelset.studies.flange_models import Parameters
-from wheelset.vehicle import load_vehicle
 from wheelset.vehicle.flange import FLANGE_LAWS, flange_force
 
 Law = Callable[[np.ndarray], np.ndarray]
@@ -41,7 +40,7 @@ def figure_4_claims(p: Parameters) -> pd.DataFrame:
         _law(p, name) for name in ("piecewise_linear", "quintic", "exponential", "reciprocal")
     )
     y = np.linspace(0.0, COMPARED_TO, 2201)
-    clearance = load_vehicle(p.vehicle_case_1).values["eta"]
+    clearance = p.load(p.vehicle_case_1).values["eta"]
     inside, end = y[y < clearance], np.array([COMPARED_TO])
     apart = float(np.abs(exponential(y) - piecewise(y)).max())
     steeper = float((exponential(1.1 * end) / piecewise(1.1 * end))[0])
@@ -62,7 +61,7 @@ def figure_4_claims(p: Parameters) -> pd.DataFrame:
 
 
 def _law(p: Parameters, name: str) -> Law:
-    law, values = FLANGE_LAWS[name], load_vehicle(p.vehicle_case_1).values
+    law, values = FLANGE_LAWS[name], p.load(p.vehicle_case_1).values
     return lambda y: flange_force(law, y, values)
 
 

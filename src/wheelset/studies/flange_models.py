@@ -14,7 +14,7 @@ from pydantic import Field
 
 from wheelset.studies.hopf_rows import first_hopf, hopf_row, stability_changes
 from wheelset.studies.parameters import Speed, VehicleName, WindowParameters
-from wheelset.vehicle import Vehicle, load_vehicle
+from wheelset.vehicle import Vehicle
 from wheelset.vehicle.flange import FLANGE_LAWS, FlangeLaw, flange_force
 from wheelset.vehicle.symbols import p as symbol
 from wheelset.vehicle.symbols import y as lateral
@@ -65,7 +65,7 @@ def force_laws(p: Parameters) -> pd.DataFrame:
     Columns: law, title, y m, force N. A law appears only inside its domain: the reciprocal one
     between its poles.
     """
-    vehicle = load_vehicle(p.vehicle_case_1)
+    vehicle = p.load(p.vehicle_case_1)
     displacement = np.linspace(-FIGURE_4_REACH, FIGURE_4_REACH, _POINTS[p.resolution])
     return pd.concat(
         [_law_frame(FLANGE_LAWS[name], vehicle, displacement) for name in FIGURE_4_LAWS],
@@ -95,7 +95,7 @@ def _by_symbol(values: dict[str, float]) -> dict[sp.Symbol, float]:
 
 def domains(p: Parameters) -> pd.DataFrame:
     """Both ends of every law's domain: law, low m, high m (infinite where there is no pole)."""
-    values = _by_symbol(dict(load_vehicle(p.vehicle_case_1).values))
+    values = _by_symbol(dict(p.load(p.vehicle_case_1).values))
     rows = []
     for name in FIGURE_4_LAWS:
         ends = [sp.solve(b.expression.subs(values), lateral) for b in FLANGE_LAWS[name].bounds]
@@ -115,5 +115,6 @@ def hopf_table(p: Parameters) -> pd.DataFrame:
 
 
 def _table_2_row(p: Parameters, case: int, vehicle: str, law: str) -> dict[str, object]:
-    changes = stability_changes(vehicle, (f"flange_law={law}",), p.window)
+    loaded = p.load(vehicle, rows=[f"flange_law={law}"])
+    changes = stability_changes(loaded, p.window)
     return {"case": case, "law": law, **hopf_row(first_hopf(changes), p.window)}

@@ -15,7 +15,6 @@ from wheelset.bifurcation.equilibria.equilibrium import EigenvalueLoci, eigenval
 from wheelset.hunting import hunting_system
 from wheelset.studies.hopf_rows import first_hopf, hopf_row, stability_changes
 from wheelset.studies.parameters import VehicleName, WindowParameters
-from wheelset.vehicle import load_vehicle
 
 #: a3 [1/m2] that the paper takes wherever it scans another coefficient in section 5 and Table 3.
 TABLE_3_A3 = 200.0
@@ -43,7 +42,7 @@ def default_hopf(p: Parameters) -> pd.DataFrame:
 
     Columns: v m/s, frequency rad/s, wavelength m, flc (MATCONT's normalisation), kind, words.
     """
-    changes = stability_changes(p.vehicle, (), p.window)
+    changes = stability_changes(p.load(p.vehicle), p.window)
     rows = [{**_numbers(point), "kind": point.kind, "words": point.words} for point in changes]
     return pd.DataFrame(rows, columns=["v", "frequency", "wavelength", "flc", "kind", "words"])
 
@@ -63,14 +62,14 @@ def first_default(p: Parameters, vehicle: str | None = None) -> SimpleNamespace:
     """Hopf point of lowest speed of a vehicle (default: the study's): v, frequency, flc, kind,
     words; None for the numbers, and words that say so, where the window holds none.
     """
-    changes = stability_changes(vehicle or p.vehicle, (), p.window)
+    changes = stability_changes(p.load(vehicle or p.vehicle), p.window)
     return SimpleNamespace(**hopf_row(first_hopf(changes), p.window))
 
 
 def loci(p: Parameters) -> EigenvalueLoci:
     """The four eigenvalues [1/s] of straight running over the speed window, as curves."""
     speeds = np.linspace(p.v_min, p.v_max, _POINTS[p.resolution])
-    return eigenvalue_loci(hunting_system(load_vehicle(p.vehicle)), "v", speeds)
+    return eigenvalue_loci(hunting_system(p.load(p.vehicle)), "v", speeds)
 
 
 def eigenvalue_frame(curves: EigenvalueLoci) -> pd.DataFrame:
@@ -92,15 +91,13 @@ def table_3_hopf(p: Parameters, vehicle: str | None = None) -> pd.DataFrame:
     Columns: vehicle, parameter, value (SI), v m/s, frequency rad/s, flc, kind, words.
     """
     name = vehicle or p.vehicle
-    return pd.DataFrame([_table_3_row(name, *row, p.window) for row in TABLE_3_ROWS])
+    return pd.DataFrame([_table_3_row(p, name, *row) for row in TABLE_3_ROWS])
 
 
-def _table_3_row(
-    vehicle: str, parameter: str, value: float, window: tuple[float, float]
-) -> dict[str, object]:
-    changes = stability_changes(vehicle, table_3_overrides(parameter, value), window)
+def _table_3_row(p: Parameters, vehicle: str, parameter: str, value: float) -> dict[str, object]:
+    loaded = p.load(vehicle, rows=table_3_overrides(parameter, value))
     place = {"vehicle": vehicle, "parameter": parameter, "value": value}
-    return {**place, **hopf_row(first_hopf(changes), window)}
+    return {**place, **hopf_row(first_hopf(stability_changes(loaded, p.window)), p.window)}
 
 
 def table_3_overrides(parameter: str, value: float) -> tuple[str, ...]:

@@ -7,15 +7,12 @@ from typing import Any
 
 from wheelset.bifurcation.equilibria.hopf import HopfPoint, StabilityChange, instabilities
 from wheelset.hunting import hunting_system
-from wheelset.vehicle import load_vehicle
+from wheelset.vehicle import Vehicle
 
 
-def stability_changes(
-    vehicle: str, overrides: Iterable[str], window: tuple[float, float]
-) -> tuple[StabilityChange, ...]:
+def stability_changes(vehicle: Vehicle, window: tuple[float, float]) -> tuple[StabilityChange, ...]:
     """Every Hopf and static point of a vehicle's straight running over a speed window, m/s."""
-    system = hunting_system(load_vehicle(vehicle, overrides=list(overrides)))
-    return instabilities(system, "v", window)
+    return instabilities(hunting_system(vehicle), "v", window)
 
 
 def first_hopf(changes: Iterable[StabilityChange]) -> HopfPoint | None:

@@ -15,7 +15,6 @@ from wheelset.bifurcation.integration.integrate import integrate
 from wheelset.bifurcation.integration.trajectory import Trajectory
 from wheelset.hunting import hunting_system
 from wheelset.studies.flange_models import Parameters
-from wheelset.vehicle import load_vehicle
 from wheelset.vehicle.flange import FLANGE_LAWS
 
 #: Flange laws of Fig. 5, and the one that the paper calls close to reality but does not simulate.
@@ -69,7 +68,7 @@ def hunting_motions(p: Parameters, laws: tuple[str, ...] = FIGURE_5_LAWS) -> tup
 
 
 def _motion(p: Parameters, case: int, vehicle: str, law: str) -> Motion:
-    loaded = load_vehicle(vehicle, overrides=[f"flange_law={law}"])
+    loaded = p.load(vehicle, rows=[f"flange_law={law}"])
     system = hunting_system(loaded, speed=p.speed)
     start = [p.initial_displacement, 0.0, 0.0, 0.0]
     return Motion(case, law, integrate(system, start, p.duration))

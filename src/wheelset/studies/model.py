@@ -13,7 +13,7 @@ import sympy as sp
 from pydantic import Field
 
 from wheelset.studies.parameters import StudyParameters, VehicleName
-from wheelset.vehicle import ModelOptions, Vehicle, load_vehicle
+from wheelset.vehicle import ModelOptions, Vehicle
 from wheelset.vehicle.equations import Equation, equations_of_motion
 from wheelset.vehicle.geometry import QUANTITIES, SIDES, PolynomialGeometry
 from wheelset.vehicle.latex import equation_latex
@@ -52,7 +52,7 @@ def equations(p: Parameters) -> tuple[Section, ...]:
 
     Every line is written from the sympy expression that is also compiled and differentiated.
     """
-    model = equations_of_motion(load_vehicle(p.vehicle).options)
+    model = equations_of_motion(p.load(p.vehicle).options)
     numbered = (*model.geometry, model.roll, *model.wheel, *model.body)
     return tuple(
         Section(title, tuple(equation_latex(e) for e in numbered if _belongs(e, numbers)))
@@ -86,7 +86,7 @@ def symbols(p: Parameters) -> pd.DataFrame:
     Columns: name, latex, meaning, equation, value (SI), unit, status (printed, inferred, assumed,
     user, default), source, reason.
     """
-    vehicle = load_vehicle(p.vehicle)
+    vehicle = p.load(p.vehicle)
     return pd.DataFrame([_symbol_row(vehicle, name) for name in vehicle.values])
 
 
@@ -107,7 +107,7 @@ def departures(p: Parameters) -> pd.DataFrame:
     Columns: option, chosen, printed (what physics and the printed equations say), choices, departs
     (whether chosen differs), meaning.
     """
-    chosen, printed = load_vehicle(p.vehicle).options.model_dump(), ModelOptions().model_dump()
+    chosen, printed = p.load(p.vehicle).options.model_dump(), ModelOptions().model_dump()
     rows = [
         {
             "option": name,
@@ -127,7 +127,7 @@ def contact_geometry(p: Parameters) -> pd.DataFrame:
 
     Columns: side, y m, dr m (rolling radius less r0), delta rad, rho 1/m (sum of curvatures).
     """
-    values = load_vehicle(p.vehicle).values
+    values = p.load(p.vehicle).values
     displacement = np.linspace(-p.reach, p.reach, _POINTS[p.resolution])
     frames = [
         pd.DataFrame({"side": side, "y": displacement, **_on_side(side, values, displacement)})
@@ -153,7 +153,7 @@ def domain(p: Parameters) -> pd.DataFrame:
 
     Beyond, Hertz's formulas (5), (6) have no meaning; infinite where there is no such end.
     """
-    values = load_vehicle(p.vehicle).values
+    values = p.load(p.vehicle).values
     return pd.DataFrame([_domain_row(side, values) for side in SIDES])
 
 

@@ -6,7 +6,8 @@ from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
-from wheelset.vehicle import load_vehicle
+from wheelset.vehicle import Vehicle, load_vehicle
+from wheelset.vehicle.statements import Overrides
 
 #: quick: coarse grids, for a look and for tests; paper: the resolution of the book.
 Resolution = Literal["quick", "paper"]
@@ -32,6 +33,27 @@ class StudyParameters(BaseModel):
     resolution: Resolution = Field(
         default="paper", description="Fineness of grids: quick (coarse) or paper."
     )
+    changes: str = Field(
+        default="",
+        description=(
+            'Changes to the vehicles of the page, as "a1=0.25, flange_law=reciprocal": values in '
+            "SI units, or with a unit after the number."
+        ),
+    )
+
+    @model_validator(mode="after")
+    def _changes_fit_the_vehicles(self) -> Self:
+        for name in type(self).model_fields:
+            if name.startswith("vehicle"):
+                self.load(getattr(self, name))
+        return self
+
+    def load(self, vehicle: str, given: Overrides = (), rows: Overrides = ()) -> Vehicle:
+        """A vehicle with what the study gives it, then the reader's changes, then what makes it the
+        row of a table: the later wins. VehicleError with all that is wrong.
+        """
+        changes = [text for text in self.changes.split(",") if text.strip()]
+        return load_vehicle(vehicle, given).with_overrides(changes).with_overrides(rows)
 
 
 class WindowParameters(StudyParameters):
