@@ -12,7 +12,7 @@ from typing import Any
 #: Methods of zero problems and of their linearisations, by what they are for.
 CLOCKED = {
     "linearised": "linearise",
-    "solve": "solve",
+    "newton": "solve",
     "determinant": "solve",
     "tests": "tests",
     "solution": "solution",

@@ -71,7 +71,7 @@ def newton(start: Start) -> dict[str, float]:
     problem, u = start.problem, start.u
     row, linearisation = problem.metric * start.tangent, problem.linearised(u)
     linearised = milliseconds(lambda: problem.linearised(u))
-    solved = milliseconds(lambda: linearisation.solve(row, linearisation.residual, 0.0))
+    solved = milliseconds(lambda: linearisation.newton(row))
     return {
         "linearised": statistics.median(linearised),
         "solved": statistics.median(solved),

@@ -466,9 +466,11 @@ class TestDenseLinearisation:
     rng = np.random.default_rng(2)
     J, F, row = rng.normal(size=(4, 5)), rng.normal(size=4), rng.normal(size=5)
 
-    def test_solve(self):
-        x = DenseLinearisation(self.F, self.J).solve(self.row, self.F, 0.7)
-        np.testing.assert_allclose(np.vstack([self.J, self.row]) @ x, [*self.F, 0.7], atol=1e-13)
+    def test_newton(self):
+        x, t = DenseLinearisation(self.F, self.J).newton(self.row)
+        bordered = np.vstack([self.J, self.row])
+        np.testing.assert_allclose(bordered @ x, [*self.F, 0.0], atol=1e-13)
+        np.testing.assert_allclose(bordered @ t, np.eye(5)[-1], atol=1e-13)
 
     @pytest.mark.parametrize("order", [(0, 1, 2, 3), (1, 0, 2, 3), (2, 0, 3, 1)])
     def test_determinant_with_its_sign(self, order):
@@ -480,7 +482,7 @@ class TestDenseLinearisation:
     def test_a_singular_system_is_named(self):
         J = np.array([[1.0, 2.0, 3.0], [2.0, 4.0, 6.0]])
         with pytest.raises(SingularSystem, match="bordered by a row"):
-            DenseLinearisation(np.zeros(2), J).solve(np.ones(3), None, 1.0)
+            DenseLinearisation(np.zeros(2), J).newton(np.ones(3))
 
     def test_a_point_knows_its_determinant(self):
         """On the circle det [J; t] = 2 (x t_p - p t_x) = 2 everywhere, folds included."""

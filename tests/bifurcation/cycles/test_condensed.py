@@ -123,12 +123,11 @@ def test_a_step_solves_the_dense_system(n, N):
         space, space.kappa * 0.7 * problem[0][..., :n], columns_of(space, *problem),
         np.stack([rows[0], own]), np.stack([D[0], row[-2:]]),
     )  # fmt: skip
-    for given in (right, None):
-        full = np.append(np.zeros(len(M) - 1) if given is None else given, 0.6)
+    determinant, *found = factors.newton(rows, D, row, right)
+    assert np.sign(determinant) == np.linalg.slogdet(M)[0]
+    for x, full in zip(found, (np.append(right, 0.0), np.eye(len(M))[-1]), strict=True):
         expected, unit = solved(M, full)
-        determinant, x = factors.step(rows, D, row, given, 0.6)
         assert np.abs(x - expected).max() < 50 * unit
-        assert np.sign(determinant) == np.linalg.slogdet(M)[0]
 
 
 @pytest.mark.parametrize("N", INTERVALS)
@@ -268,7 +267,7 @@ def test_a_singular_system_is_named():
     with pytest.raises(SingularSystem, match="border rows"):
         factors.transposed(np.arange(2), weights, D, np.ones(2))
     with pytest.raises(SingularSystem, match="border rows"):
-        factors.step(weights[:1], D[:1], np.zeros(space.size), None, 1.0)
+        factors.newton(weights[:1], D[:1], np.zeros(space.size), np.zeros(space.size - 1))
 
 
 def test_memory_is_linear_in_the_number_of_intervals():
@@ -284,7 +283,7 @@ def test_arrays_with_gaps_are_refused():
     factors = Factors.of(space, *random_problem(space))
     row = np.zeros(2 * space.size)[::2]
     with pytest.raises(TypingError, match="contiguous"):
-        factors.step(np.ones((1, 2, 8)), np.ones((1, 2)), row, None, 1.0)
+        factors.newton(np.ones((1, 2, 8)), np.ones((1, 2)), row, np.zeros(space.size - 1))
 
 
 # --- unknowns and residuals ----------------------------------------------------------------------

@@ -83,29 +83,35 @@ class Front:
     def moved(self, point: Point, curve: Cubic, step: float, renewal: Renewal) -> Front:
         """The front at the next point, in the unknowns of the renewed problem."""
         side = self.start.side(point.u)
+        problem = self.problem if renewal.transfer else renewal.problem
         front = Front(
-            self.control, self.windows, self.problem, point.u, point.tangent,
-            self.start, side, curve, step,
+            self.control, self.windows, problem, point.u, point.tangent, self.start, side, curve,
+            step,
         )  # fmt: skip
-        return front.renewed(renewal)
+        return front._transferred(renewal) if renewal.transfer else front
 
     def renewed(self, renewal: Renewal) -> Front:
         """The front in the unknowns of the renewed problem."""
-        if renewal.transfer is None and renewal.problem is self.problem:
-            return self
-        moved = self if renewal.transfer is None else self._transferred(renewal)
-        return replace(moved, problem=renewal.problem)
+        if renewal.transfer is not None:
+            return self._transferred(renewal)
+        same = renewal.problem is self.problem
+        return self if same else replace(self, problem=renewal.problem)
 
     def _transferred(self, renewal: Renewal) -> Front:
         transfer, metric = renewal.transfer, renewal.problem.metric
         assert transfer is not None
-        u, tangent = transfer(self.u), transfer(self.tangent)
-        tangent = tangent / math.sqrt(metric @ (tangent * tangent))
-        curve = self.curve
+        known, curve = [self.u, self.tangent, self.start.u, self.start.tangent], self.curve
         if curve is not None:
-            curve = cubic(transfer(curve.data[0]), transfer(curve.data[2]), u, tangent, metric)
-        start = start_of(transfer(self.start.u), transfer(self.start.tangent), metric)
-        return replace(self, u=u, tangent=tangent, curve=curve, start=start, side=start.side(u))
+            known += [curve.data[0], curve.data[2]]
+        u, tangent, first, sense, *before = transfer(np.array(known))
+        tangent = tangent / math.sqrt(metric @ (tangent * tangent))
+        if curve is not None:
+            curve = cubic(before[0], before[1], u, tangent, metric)
+        start = start_of(first, sense, metric)
+        return Front(
+            self.control, self.windows, renewal.problem, u, tangent, start, start.side(u), curve,
+            self.step,
+        )  # fmt: skip
 
     def exits(self, values: Array) -> list[Exit]:
         """The windows that values of the free parameters are outside of."""
@@ -121,6 +127,6 @@ class Front:
         return self.side < 0.0 <= self.start.side(point.u)
 
     def segment(self, last: Point) -> Segment:
-        """The curve to a point, with its beginning linearised anew by this problem."""
-        first = Point(self.problem, self.u, self.tangent, self.problem.linearised(self.u))
+        """The curve to a point, from a beginning that this problem linearises anew."""
+        first = Point(self.problem, self.u, self.tangent)
         return Segment(first, last, self.curve_to(last).length, self.control)

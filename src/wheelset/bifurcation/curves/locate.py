@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from wheelset.bifurcation.curves.steps import StepControl, cubic
+from wheelset.bifurcation.curves.vectors import corrected_by, distance
 from wheelset.bifurcation.curves.zero_problem import Linearisation, Point, ZeroProblem
 from wheelset.bifurcation.outcomes import NoConvergence, NumericalOutcome
 
@@ -75,17 +76,15 @@ def corrected(
     Raises NoConvergence with the residuals, or the outcome met on the way.
     """
     metric, u = problem.metric, predicted
-    row = metric * direction
-    scale = 1 + math.sqrt(metric @ (u * u))
+    row, scale = metric * direction, 0.0
     sizes: list[float] = []
     met: list[Linearisation] = []
     for _ in range(iterations):
         met.append(problem.linearised(u))
-        step = met[-1].solve(row, met[-1].residual, 0.0)
-        u = u - step
-        sizes.append(math.sqrt(metric @ (step * step)) / scale)
+        u, tangent, size, step = corrected_by(u, *met[-1].newton(row), metric)
+        scale = scale or 1 + size
+        sizes.append(step / scale)
         if sizes[-1] <= wanted or _stalled(sizes, enough):
-            tangent = unit_tangent(met[-1], row, metric)
             point = Point(problem, u, tangent, met[-1])
             return Corrected(point, sizes[0] * scale, sizes[0], len(sizes))
         if not sizes[-1] < 2 * sizes[0]:
@@ -100,7 +99,7 @@ def _stalled(sizes: list[float], enough: float) -> bool:
 
 def unit_tangent(linearisation: Linearisation, row: Array, metric: Array) -> Array:
     """The curve's direction (N,), of length one, on the positive side of a row."""
-    tangent = linearisation.solve(row, None, 1.0)
+    _, tangent = linearisation.newton(row)
     return np.asarray(tangent / math.sqrt(metric @ (tangent * tangent)))
 
 
@@ -166,11 +165,11 @@ class Segment:
         predicted, direction = curve.at((s - low) / (high - low) * curve.length)
         if high - low <= NARROW * self.length:
             tangent = direction / math.sqrt(metric @ (direction * direction))
-            return Point(problem, predicted, tangent, problem.linearised(predicted))
+            return Point(problem, predicted, tangent)
         most, enough = self.control.iterations + 2, self.control.tolerance
         found = corrected(problem, predicted, direction, LOCATED, most, enough)
-        turned = found.point.tangent - direction
-        if max(found.distance / self.length, math.sqrt(metric @ (turned * turned)) / 10) > AWAY:
+        turned = distance(found.point.tangent, direction, metric)
+        if max(found.distance / self.length, turned / 10) > AWAY:
             raise Gap(f"a point between lies {found.distance:.1e} away from the cubic")
         bisect.insort(self.places, s)  # only here: a chord much shorter would have no direction
         return found.point
@@ -213,11 +212,10 @@ class Segment:
         Newton's method says so at a place off the middle, where a branch point is no accident.
         """
         point = self.at(low + PLACE * (high - low))
-        metric, residual = point.problem.metric, point.linearisation.residual
-        step = point.linearisation.solve(point.row, residual, 0.0)
-        distance = math.sqrt(metric @ (step * step))
-        if not distance <= NARROW * (high - low) + self.width:
-            raise Gap(f"another curve comes as near as {distance:.1e}")
+        step, _ = point.linearisation.newton(point.row)
+        away = math.sqrt(point.problem.metric @ (step * step))
+        if not away <= NARROW * (high - low) + self.width:
+            raise Gap(f"another curve comes as near as {away:.1e}")
 
 
 def _halved(

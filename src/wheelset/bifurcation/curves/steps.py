@@ -8,6 +8,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
+from wheelset.bifurcation.curves.vectors import hermite, on_cubic
+
 Array = NDArray[np.float64]
 
 #: A step grows at most this much, and shrinks to this when refused: not to one half, which could
@@ -80,12 +82,8 @@ class Cubic:
 
     def at(self, s: float) -> tuple[Array, Array]:
         """Point and derivative (N,) at arclength s, which may lie beyond the second point."""
-        t, h = s / self.length, self.length
-        one = t - 1.0
-        place = (1 + 2 * t) * one * one, t * t * (3 - 2 * t), h * t * one * one, h * t * t * one
-        slope = 6 * t * one / h, -6 * t * one / h, one * (3 * t - 1), t * (3 * t - 2)
-        both = np.array((place, slope)) @ self.data
-        return both[0], both[1]
+        place, direction = on_cubic(self.data, self.length, s)
+        return place, direction
 
 
 def cubic(
@@ -96,10 +94,8 @@ def cubic(
     Its length is the chord c stretched to the arc: c (1 + |t1 - t0|^2 / 24), exact to fifth order
     where the curvature is constant.
     """
-    chord, bend = end - start, end_tangent - start_tangent
-    turn2 = float(metric @ (bend * bend))
-    length = max(math.sqrt(metric @ (chord * chord)) * (1 + turn2 / 24), NO_LENGTH)
-    return Cubic(np.array((start, end, start_tangent, end_tangent)), length, math.sqrt(turn2))
+    data, chord, turn = hermite(start, start_tangent, end, end_tangent, metric)
+    return Cubic(data, max(chord * (1 + turn * turn / 24), NO_LENGTH), turn)
 
 
 def word(old: float, new: float) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
@@ -23,6 +22,7 @@ from wheelset.bifurcation.curves.special import (
     zero_at_start,
 )
 from wheelset.bifurcation.curves.steps import SHRINK, Cubic, word
+from wheelset.bifurcation.curves.vectors import distance as chord
 from wheelset.bifurcation.curves.zero_problem import Point, Renewal
 from wheelset.bifurcation.outcomes import DomainLeft, NotFinite, NumericalOutcome
 
@@ -141,7 +141,8 @@ class Walk:
         point, distance, error, iterations = corrected(
             front.problem, predicted, direction, control.tolerance, control.iterations
         )
-        curve, surprise = front.curve_to(point), _angle(point, direction)
+        curve = front.curve_to(point)
+        surprise = chord(point.tangent, direction, front.problem.metric)  # the angle, if small
         if error > FAR * control.error:
             raise Misjudged(f"the prediction is off by {error:.1e}")
         if curve.turn > control.turn or surprise > SURPRISE + EXPLAINED * distance / step:
@@ -198,12 +199,6 @@ class Walk:
         self.front = self.front.moved(point, curve, wanted, renewal)
         if ended and self.ended is None:
             self.ended = Ending("problem", ended)
-
-
-def _angle(point: Point, direction: Array) -> float:
-    """Angle between a tangent and a nearly unit direction, rad, small."""
-    change = point.tangent - direction
-    return math.sqrt(point.problem.metric @ (change * change))
 
 
 def _failure(outcome: NumericalOutcome, least: float) -> Ending:

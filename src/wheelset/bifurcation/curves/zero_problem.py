@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
@@ -38,8 +39,10 @@ class Linearisation(Protocol):
         """F(u), shape (N-1,)."""
         ...
 
-    def solve(self, row: Array, rhs: Array | None, last: float) -> Array:
-        """x (N,) with J x = rhs (None: zero) and row . x = last; SingularSystem when it cannot."""
+    def newton(self, row: Array) -> tuple[Array, Array]:
+        """x and t (N,) with J x = F, row . x = 0, and J t = 0, row . t = 1: Newton's correction
+        across a row and the curve's direction; SingularSystem when there are none.
+        """
         ...
 
     def determinant(self, row: Array) -> float:
@@ -101,13 +104,18 @@ class Point:
     """A point of a curve.
 
     u (N,): unknowns. tangent (N,): of length one in the problem's metric, along the walk.
-    linearisation: a ``Linearisation`` at u, or within Newton's tolerance of it.
+    known: its linearisation where there is one, else that is made when asked for.
     """
 
     problem: Any
     u: Array
     tangent: Array
-    linearisation: Any
+    known: Any = None
+
+    @cached_property
+    def linearisation(self) -> Any:
+        """A ``Linearisation`` at u, or within Newton's tolerance of it."""
+        return self.problem.linearised(self.u) if self.known is None else self.known
 
     @property
     def row(self) -> Array:
@@ -122,8 +130,8 @@ class Point:
 
 @dataclass(frozen=True, eq=False)
 class Renewal:
-    """The renewed problem. transfer maps points and tangents of the old problem to the unknowns of
-    the new one when its mesh changed; None when the unknowns are the same.
+    """The renewed problem. transfer maps points and tangents of the old problem, rows (..., N), to
+    the unknowns of the new one when its mesh changed; None when the unknowns are the same.
     """
 
     problem: Any
@@ -149,16 +157,15 @@ class DenseLinearisation:
     residual: Array
     jacobian: Array
 
-    def solve(self, row: Array, rhs: Array | None, last: float) -> Array:
-        """x (N,) with J x = rhs (None: zero) and row . x = last."""
-        right = np.zeros(len(row))
-        if rhs is not None:
-            right[:-1] = rhs
-        right[-1] = last
-        _, _, x, info = dgesv(self._bordered(row), right, 1, 1)
+    def newton(self, row: Array) -> tuple[Array, Array]:
+        """x and t (N,) with J x = F, row . x = 0, and J t = 0, row . t = 1."""
+        right = np.zeros((2, len(row)))
+        right[0, :-1], right[1, -1] = self.residual, 1.0
+        _, _, x, info = dgesv(self._bordered(row), right.T, 1, 1)
         if info or not math.isfinite(x.sum()):
             raise SingularSystem("the Jacobian bordered by a row")
-        return np.asarray(x, dtype=np.float64)
+        correction, tangent = x.T
+        return correction, tangent
 
     def determinant(self, row: Array) -> float:
         """det [J; row]."""

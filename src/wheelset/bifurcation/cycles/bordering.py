@@ -12,21 +12,22 @@ from wheelset.bifurcation.cycles.vectors import dot, load, part, plus, store, ze
 @part
 def reduce_row(
     factors: Any, at_one: Any, signs: Any, columns: Any, weights: Any, start: int, stride: int,
-    u: Any, delta: Any, carried: Any, y: Any,
-) -> float:  # fmt: skip
+    u: Any, delta: Any, carried: Any, y: Any, products: Any,
+) -> None:  # fmt: skip
     """A row sum_j weight_j . X_j through the factors: carried (2 n) on [x_0, x_N], delta (k), added
-    to, on the scalars, y (N, n) on what is eliminated: the place of x_j in u.
+    to, on the scalars, y (N, n) on what is eliminated: the place of x_j in the rows of u.
 
-    weight_j begins at weights[start + j stride]. Returns the row's product with u.
+    weight_j begins at weights[start + j stride]. products (r): of the row with r rows of u, one
+    for each right-hand side, added to.
     """
     responses, links, forced = factors
     N, n, size = forced.shape[0], len(signs), (len(at_one) - 1) * len(signs)
     inner, narrow, pair = zeros(signs, at_one[1:]), zeros(signs, (0,)), zeros(signs, (0, 0))
-    total = 0.0
     for j in range(N):
         at = j * (size + n)
         weight = load(inner, weights, (start + j * stride,))
-        total += dot(weight, load(inner, u, (at + n,)))
+        for i in range(products.shape[0]):
+            products[i] += dot(weight, load(inner, u, (i, at + n)))
         for s in range(n):
             y[j, s] = dot(weight, load(inner, responses, (j, size + s, 0)))
         for s in range(columns.shape[0]):
@@ -38,7 +39,8 @@ def reduce_row(
         else:
             own = plus(own, 1.0, load(narrow, carried, (n,)))
             store(y, (j, 0), own)
-            total += dot(own, load(narrow, u, (at,)))
+            for i in range(products.shape[0]):
+                products[i] += dot(own, load(narrow, u, (i, at)))
             for s in range(columns.shape[0]):
                 delta[s] += dot(own, load(narrow, forced, (j, columns[s], 0)))
             store(carried, (n,), narrow)
@@ -46,7 +48,6 @@ def reduce_row(
             for i in range(n):
                 both = plus(both, y[j, i], load(pair, links, (j, 2 * n + i, 0)))
             store(carried, (0,), both)
-    return total
 
 
 @part

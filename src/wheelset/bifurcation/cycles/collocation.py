@@ -23,6 +23,13 @@ from wheelset.bifurcation.system import System
 
 Array = NDArray[np.float64]
 
+#: Cached properties of ``Collocation`` that all meshes share, and all of so many intervals.
+_SAME_ON_ALL = {
+    "rule", "kappa", "sign_tuple", "flips", "fixed", "scalars", "last_row", "no_scalars",
+    "no_weights", "stage_weights", "where", "along", "_kernel", "_second",
+}  # fmt: skip
+_SAME_FOR_EQUAL = {"shape", "inner", "size", "no_forcing"}
+
 
 class Orbit(NamedTuple):
     """The parts of a vector of unknowns (or of a direction in it), as views.
@@ -87,8 +94,10 @@ class Collocation:
     @cached_property
     def mesh(self) -> Array:
         """Mesh points 0 .. 1, (N + 1,)."""
-        mesh = np.concatenate([[0.0], np.cumsum(self.h)])
-        return np.asarray(mesh / mesh[-1])
+        mesh = np.zeros(len(self.h) + 1)
+        np.cumsum(self.h, out=mesh[1:])
+        mesh /= mesh[-1]
+        return mesh
 
     @cached_property
     def inner(self) -> int:
@@ -107,14 +116,41 @@ class Collocation:
         return tuple(self.signs.tolist())
 
     @cached_property
+    def flips(self) -> NDArray[np.bool_]:
+        """Which states (n,) change their sign after half a period, where that is computed."""
+        return np.asarray((self.signs < 0) & self.half)
+
+    @cached_property
+    def fixed(self) -> dict[str, float]:
+        """All parameters by name, with p's values of the free ones."""
+        return dict(zip(self.system.parameter_names, self.p.tolist(), strict=True))
+
+    @cached_property
     def scalars(self) -> NDArray[np.int64]:
         """Columns of the period and the free parameters in ``Factors``."""
         return np.arange(1 + len(self.free))
 
     @cached_property
+    def last_row(self) -> Array:
+        """Right-hand sides (2, 1 + k) of border rows: none, and 1 for the last."""
+        sides = np.zeros((2, 1 + len(self.free)))
+        sides[1, -1] = 1.0
+        return sides
+
+    @cached_property
+    def no_scalars(self) -> Array:
+        """Entries (1, 1 + k) of a border row that has none for the period and the parameters."""
+        return np.zeros((1, 1 + len(self.free)))
+
+    @cached_property
     def no_forcing(self) -> Array:
         """Forcings of a linear problem that has no more than its own, (N, m, n, 0)."""
         return np.empty((*self.shape, 0))
+
+    @cached_property
+    def no_weights(self) -> Array:
+        """In place of a phase condition, (0, m n)."""
+        return np.empty((0, self.shape[1] * self.shape[2]))
 
     @cached_property
     def where(self) -> NDArray[np.int64]:
@@ -134,7 +170,12 @@ class Collocation:
     @cached_property
     def weights(self) -> Array:
         """Weights of the inner product of two orbits on the stages, (N, m, n)."""
-        return np.asarray(self.quadrature / self.scales**2)
+        return self.h[:, np.newaxis, np.newaxis] * self.stage_weights
+
+    @cached_property
+    def stage_weights(self) -> Array:
+        """The same for an interval of length one, (m, n)."""
+        return self.rule.b[:, np.newaxis] / self.scales**2
 
     @cached_property
     def _kernel(self) -> Any:
@@ -143,6 +184,13 @@ class Collocation:
     @cached_property
     def _second(self) -> Any:
         return self.system.curvature_kernel(len(self.free))
+
+    def on(self, h: Array) -> Collocation:
+        """The same on another mesh; what does not depend on the mesh is kept."""
+        other = Collocation(self.system, self.p, self.free, h, self.signs, self.half, self.scales)
+        known = _SAME_ON_ALL | _SAME_FOR_EQUAL if len(h) == len(self.h) else _SAME_ON_ALL
+        other.__dict__.update((k, v) for k, v in self.__dict__.items() if k in known)
+        return other
 
     def split(self, u: Array) -> Orbit:
         """The parts of a vector of unknowns, as views."""
@@ -163,7 +211,7 @@ class Collocation:
     def mean(self, stages: Array) -> Array:
         """Mean (n,) over the full period of a function given at the stages."""
         mean = (self.quadrature * stages).sum(axis=(0, 1))
-        return np.where(self.signs < 0, 0.0, mean) if self.half else mean
+        return np.where(self.flips, 0.0, mean)
 
     def parameters(self, free: Array) -> Array:
         """All parameter values (m,) with the free ones in place."""
@@ -173,13 +221,11 @@ class Collocation:
 
     def evaluate(self, orbit: Orbit) -> tuple[Array, Array]:
         """f (N, m, n) and its derivatives by states and free parameters (N, m, n, n + k)."""
-        N, m, n = self.shape
-        f, J = np.empty((N, m, n)), np.empty((N, m, n, n + len(self.free)))
-        self._kernel(
-            orbit.nodes[:, 1:].reshape(-1, n), self.parameters(orbit.free), self.along,
-            f.reshape(-1, n), J.reshape(N * m, n, -1),
-        )  # fmt: skip
-        return f, J
+        (N, m, n), k = self.shape, len(self.free)
+        f, J = np.empty((N * m, n)), np.empty((N * m, n, n + k))
+        X = orbit.nodes[:, 1:].reshape(-1, n)
+        self._kernel(X, self.parameters(orbit.free), self.along, f, J)
+        return f.reshape(N, m, n), J.reshape(N, m, n, n + k)
 
     def curvature(self, orbit: Orbit, v: Array, psi: Array) -> Array:
         """Gradient of psi . (Df v) at every stage by states and free parameters (N, m, n + k)."""

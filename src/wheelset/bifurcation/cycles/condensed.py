@@ -9,13 +9,14 @@ Every linear system of a cycle has this shape (a Newton step, a Floquet mode, a 
     rows       sum_j weight_j . X_j + D c                          = e         (k of them)
 
 ``elimination`` solves the stages and ``reduction`` removes x_1 .. x_{N-1}; their arrays (responses,
-links, forced) are the factors. ``solve`` takes border rows and a right-hand side through them.
+links, forced) are the factors. ``solve`` takes border rows and right-hand sides through them.
 Work and memory are linear in N; nothing larger than one interval is ever factored. The layouts are
 
     u        [ x_0, X_01 .. X_0m | x_1, ... | .. X_{N-1,m} | x_N | c ]
-    right    [ rho_0 .. rho_{N-1} (m n each) | jump_0 .. jump_{N-1} (n each) | gap | ... ]
+    right    [ rho_0 .. rho_{N-1} (m n each) | jump_0 .. jump_{N-1} (n each) | gap | e ]
 
-so that a row of the responses, [X_j1 .. X_jm | x_{j+1}], lies in u as it is.
+so that a row of the responses, [X_j1 .. X_jm | x_{j+1}], lies in u as it is. There are r
+right-hand sides, each with its own u; those beyond the rows of ``right`` are zero but for e.
 """
 
 from __future__ import annotations
@@ -34,36 +35,43 @@ def solve(
     factors: Any, at_one: Any, signs: Any, columns: Any, rows: Any, D: Any, row: Any, right: Any,
     e: Any, u: Any,
 ) -> float:  # fmt: skip
-    """Solve for u, with the scalars in ``columns`` (k) and k border rows.
+    """Solve for u (r, unknowns), with the scalars in ``columns`` (k) and k border rows.
 
     rows: k or k - 1 of them, flat; D (as many, k). In the second case the last one is ``row``, laid
-    out as u, with no entries for mesh values. right: empty for zero; e (k): of the border rows.
+    out as u, with no entries for mesh values. right (up to r, ...); e (r, k): of the border rows,
+    added to what right says of them.
     Returns the determinant up to a positive factor, 0 where singular.
     """
     N, n, size = factors[2].shape[0], len(signs), (len(at_one) - 1) * len(signs)
-    k, last = e.shape[0], N * (size + n)
+    k, sides, last = columns.shape[0], u.shape[0], N * (size + n)
     carried, delta, y = np.empty((k, 2 * n)), np.empty((k, k)), np.empty((N, n))
-    rest = np.empty((n + k, 1))
-    if right.shape[0] > 0:
-        _condense(factors, at_one, signs, right, u)
-    else:
-        for i in range(last):
-            u[i] = 0.0
+    rest, products = np.empty((n + k, sides)), np.zeros((k, right.shape[0]))
+    for i in range(sides):
+        if i < right.shape[0]:
+            _condense(factors, at_one, signs, right, u, i)
+        else:
+            for s in range(last):
+                u[i, s] = 0.0
     for b in range(k):
         given = b < D.shape[0]
         for s in range(k):
             delta[b, s] = D[b, s] if given else row[last + n + s]
         weights, start, stride = (rows, b * N * size, size) if given else (row, n, size + n)
-        rest[n + b, 0] = e[b] - reduce_row(
-            factors, at_one, signs, columns, weights, start, stride, u, delta[b], carried[b], y
-        )
+        reduce_row(
+            factors, at_one, signs, columns, weights, start, stride, u, delta[b], carried[b], y,
+            products[b],
+        )  # fmt: skip
+        for i in range(sides):
+            rest[n + b, i] = e[i, b] - (products[b, i] if i < right.shape[0] else 0.0)
+            if i < right.shape[0] and last + n + b < right.shape[1]:
+                rest[n + b, i] += right[i, last + n + b]
     determinant = _close(factors, signs, columns, carried, delta, right, rest, u)
     _expand(factors, at_one, signs, columns, u)
     return determinant
 
 
 @part
-def _condense(factors: Any, at_one: Any, signs: Any, right: Any, u: Any) -> None:
+def _condense(factors: Any, at_one: Any, signs: Any, right: Any, u: Any, side: int) -> None:
     """A right-hand side through the factors: its shares of stages and mesh values, to u; in the
     place of x_0 what is left of it in the last equations.
     """
@@ -75,70 +83,74 @@ def _condense(factors: Any, at_one: Any, signs: Any, right: Any, u: Any) -> None
         at = j * (size + n)
         row = wide
         for i in range(size):
-            row = plus(row, right[j * size + i], load(wide, responses, (j, i, 0)))
-        store(u, (at + n,), row)
-        jump = load(narrow, right, (N * size + j * n,))
-        store(r, (n,), plus(load(narrow, u, (at + n + size,)), 1.0, jump))
+            row = plus(row, right[side, j * size + i], load(wide, responses, (j, i, 0)))
+        store(u, (side, at + n), row)
+        jump = load(narrow, right, (side, N * size + j * n))
+        store(r, (n,), plus(load(narrow, u, (side, at + n + size)), 1.0, jump))
         if j == 0:
             store(r, (0,), load(narrow, r, (n,)))
         else:
             both = load(pair, r, (0,))
             for i in range(n):
-                u[at + i] = dot(load(pair, links, (j, i, 0)), both)
+                u[side, at + i] = dot(load(pair, links, (j, i, 0)), both)
                 r[i] = dot(load(pair, links, (j, n + i, 0)), both)
-    store(u, (0,), load(narrow, r, (0,)))
+    store(u, (side, 0), load(narrow, r, (0,)))
 
 
 @part
 def _close(
     factors: Any, signs: Any, columns: Any, carried: Any, delta: Any, right: Any, rest: Any, u: Any
 ) -> float:
-    """Solve the last equations: x_0, x_N = S x_0 + gap and c, to u; rest[n:] (k, 1): right-hand
+    """Solve the last equations: x_0, x_N = S x_0 + gap and c, to u; rest[n:] (k, r): right-hand
     sides of the border rows. Returns the determinant.
     """
     n, k = len(signs), columns.shape[0]
-    last = u.shape[0] - n - k
+    last = u.shape[1] - n - k
     B, scale = closing(factors, columns, signs, carried, delta)
     for i in range(n + k):
-        if i < n:
-            rest[i, 0] = u[i]
-        if right.shape[0] > 0:
-            for s in range(n):
-                factor = factors[1][0, i, n + s] if i < n else carried[i - n, n + s]
-                rest[i, 0] -= factor * right[last + s]
-        rest[i, 0] *= scale[i]
+        for side in range(u.shape[0]):
+            if i < n:
+                rest[i, side] = u[side, i]
+            if side < right.shape[0]:
+                for s in range(n):
+                    factor = factors[1][0, i, n + s] if i < n else carried[i - n, n + s]
+                    rest[i, side] -= factor * right[side, last + s]
+            rest[i, side] *= scale[i]
     determinant = gauss_elimination(B, rest)
-    for s in range(n):
-        gap = right[last + s] if right.shape[0] > 0 else 0.0
-        u[s], u[last + s] = rest[s, 0], signs[s] * rest[s, 0] + gap
-    for s in range(k):
-        u[last + n + s] = rest[n + s, 0]
+    for side in range(u.shape[0]):
+        for s in range(n):
+            gap = right[side, last + s] if side < right.shape[0] else 0.0
+            u[side, s], u[side, last + s] = rest[s, side], signs[s] * rest[s, side] + gap
+        for s in range(k):
+            u[side, last + n + s] = rest[n + s, side]
     return determinant
 
 
 @part
 def _expand(factors: Any, at_one: Any, signs: Any, columns: Any, u: Any) -> None:
-    """Mesh values and stages from x_0, x_N and c, which are in u beside the right-hand side's
+    """Mesh values and stages from x_0, x_N and c, which are in u beside the right-hand sides'
     shares.
     """
     responses, links, forced = factors
     N, n, size = forced.shape[0], len(signs), (len(at_one) - 1) * len(signs)
     inner, narrow, c = zeros(signs, at_one[1:]), zeros(signs, (0,)), N * (size + n) + n
-    first = load(narrow, u, (0,))
     for j in range(N - 1, -1, -1):
         at = j * (size + n)
-        if j > 0:
-            following = load(narrow, u, (at + size + n,))
-            for i in range(n):
-                u[at + i] += dot(load(narrow, links, (j, 2 * n + i, 0)), first)
-                u[at + i] += dot(load(narrow, links, (j, 2 * n + i, n)), following)
-            x = load(narrow, u, (at,))
+        for side in range(u.shape[0]):
+            if j > 0:
+                first = load(narrow, u, (side, 0))
+                following = load(narrow, u, (side, at + size + n))
+                for i in range(n):
+                    u[side, at + i] += dot(load(narrow, links, (j, 2 * n + i, 0)), first)
+                    u[side, at + i] += dot(load(narrow, links, (j, 2 * n + i, n)), following)
+                x = load(narrow, u, (side, at))
+                for s in range(columns.shape[0]):
+                    x = plus(x, u[side, c + s], load(narrow, forced, (j, columns[s], 0)))
+                store(u, (side, at), x)
+            X = load(inner, u, (side, at + n))
+            for s in range(n):
+                X = plus(X, u[side, at + s], load(inner, responses, (j, size + s, 0)))
             for s in range(columns.shape[0]):
-                x = plus(x, u[c + s], load(narrow, forced, (j, columns[s], 0)))
-            store(u, (at,), x)
-        X = load(inner, u, (at + n,))
-        for s in range(n):
-            X = plus(X, u[at + s], load(inner, responses, (j, size + s, 0)))
-        for s in range(columns.shape[0]):
-            X = plus(X, u[c + s], load(inner, responses, (j, size + n + columns[s], 0)))
-        store(u, (at + n,), X)
+                own = load(inner, responses, (j, size + n + columns[s], 0))
+                X = plus(X, u[side, c + s], own)
+            store(u, (side, at + n), X)

@@ -58,13 +58,13 @@ class CriticalLinearisation:
     rows: Array
     scalars: Array
 
-    def solve(self, row: Array, rhs: Array | None, last: float) -> Array:
-        """x with J x = rhs (None: zero) and row . x = last."""
-        return self.factors.step(self.rows, self.scalars, row, rhs, last)[1]
+    def newton(self, row: Array) -> tuple[Array, Array]:
+        """x and t with J x = residual, row . x = 0, and J t = 0, row . t = 1."""
+        return self.factors.newton(self.rows, self.scalars, row, self.residual)[1:]
 
     def determinant(self, row: Array) -> float:
         """det [J; row] up to a positive factor."""
-        return self.factors.step(self.rows, self.scalars, row, None, 1.0)[0]
+        return self.factors.newton(self.rows, self.scalars, row, self.residual)[0]
 
     @cached_property
     def floquet(self) -> Floquet:
@@ -113,14 +113,12 @@ class CriticalCurve:
 
     def linearised(self, u: Array) -> CriticalLinearisation:
         """One factorisation, the mode and its adjoint, and the gradient of g."""
-        space, orbit = self.space, self.space.split(u)
-        f, J = space.evaluate(orbit)
-        factors = Factors.of(space, J, f, orbit.period, self.borders.column[..., np.newaxis])
-        found = critical_modes.mode(factors, self.borders, _FLIP if self.flip else _FOLD)
-        anchor = self.cycles.anchor
-        residual = np.append(space.residual(u, f, anchor.row, anchor.level), found.g)
-        rows, scalars = self._rows(orbit, J, found)
-        return CriticalLinearisation(self, residual, factors, found, rows, scalars)
+        anchor, column = self.cycles.anchor, self.borders.column[..., np.newaxis]
+        at = Factors.at(self.space, u, anchor.row, anchor.level, column)
+        found = critical_modes.mode(at.factors, self.borders, _FLIP if self.flip else _FOLD)
+        rows, scalars = self._rows(at.orbit, at.J, found)
+        residual = np.append(at.residual, found.g)
+        return CriticalLinearisation(self, residual, at.factors, found, rows, scalars)
 
     def _rows(self, orbit: Orbit, J: Array, found: Mode) -> tuple[Array, Array]:
         """Phase condition and gradient of g, by the stages (2, N, m n) and (T, p1, p2) (2, 3)."""

@@ -47,7 +47,9 @@ class Borders:
         own = self.stages.reshape(self.phase.shape)
         if self.flip:
             return own[np.newaxis].copy(), np.zeros((1, 1))
-        return np.stack([self.phase, own]), np.array([[0.0, 0.0], [self.period, 0.0]])
+        rows, scalars = np.empty((2, *own.shape)), np.zeros((2, 2))
+        rows[0], rows[1], scalars[1, 0] = self.phase, own, self.period
+        return rows, scalars
 
 
 @dataclass(frozen=True, eq=False)

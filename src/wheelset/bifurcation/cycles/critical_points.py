@@ -22,17 +22,18 @@ def tests(curve: CriticalCurve, point: Point) -> Mapping[str, float]:
     or fold (flips). torus: a further pair with the product one.
     """
     linearisation = point.linearisation
-    mode, floquet = linearisation.mode, linearisation.floquet
+    mode = linearisation.mode
+    watched = linearisation.floquet.watched_beside(-1.0 if curve.flip else 1.0)
     size = np.sqrt((curve.space.weights * mode.v**2).sum()) * np.abs(mode.psi).max()
     pairing = float((mode.psi * mode.v).sum() / size)
     if curve.flip:
-        return {"pairing": pairing, "fold": floquet.fold, "torus": floquet.torus_beside(-1.0)}
+        return {"pairing": pairing, "fold": watched.fold, "torus": watched.torus}
     along = np.vdot(linearisation.rows[1], mode.v) + linearisation.scalars[1, 0] * mode.period
     return {
         "cusp": float(along / size),
         "pairing": pairing,
-        "flip": floquet.flip,
-        "torus": floquet.torus_beside(1.0),
+        "flip": watched.flip,
+        "torus": watched.torus,
     }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -68,8 +69,8 @@ class Anchor:
     @classmethod
     def at(cls, space: Collocation, u: Array) -> Anchor:
         """The anchor at a vector of unknowns."""
-        rule, flips = space.rule, space.signs < 0
-        return cls(*_anchor(u, rule.slopes, space.h, rule.b, space.weights, flips & space.half))
+        rule = space.rule
+        return cls(*_anchor(u, rule.slopes, space.h, rule.b, space.weights, space.flips))
 
 
 @njit(cache=True, error_model="numpy")
@@ -101,28 +102,29 @@ def _anchor(
 class CycleLinearisation:
     """The collocation equations with their phase condition, linearised and factored.
 
-    residual: [stages N m n | mesh N n | boundary n | phase 1].
+    residual: [stages N m n | mesh N n | boundary n | phase 1]. solved: the determinant bordered by
+    the last row asked about, and the direction t that it led to.
     """
 
     curve: CycleCurve
     residual: Array
     factors: Factors
-    along_curve: float | None = None  # determinant bordered by the unit tangent, once known
+    solved: tuple[float, Array] | None = None
 
-    def solve(self, row: Array, rhs: Array | None, last: float) -> Array:
-        """x with J x = rhs (None: zero) and row . x = last."""
-        curve = self.curve
-        determinant, x = self.factors.step(curve.rows, curve.no_scalars, row, rhs, last)
-        if rhs is None:  # x is last / <row, t> times the unit tangent t
-            self.along_curve = determinant * float(np.sqrt(curve.metric @ (x * x))) / last
-        return x
+    def newton(self, row: Array) -> tuple[Array, Array]:
+        """x and t with J x = residual, row . x = 0, and J t = 0, row . t = 1."""
+        phase, none = self.curve.anchor.row, self.curve.space.no_scalars
+        determinant, x, t = self.factors.newton(phase, none, row, self.residual)
+        self.solved = determinant, t
+        return x, t
 
     def determinant(self, row: Array) -> float:
         """det [J; row] up to a positive factor; row: the unit tangent's."""
-        if self.along_curve is None:
-            self.solve(row, None, 1.0)
-        assert self.along_curve is not None
-        return self.along_curve
+        if self.solved is None:
+            self.newton(row)
+        assert self.solved is not None
+        determinant, t = self.solved  # t is the unit tangent over its product with the row
+        return determinant * math.sqrt(self.curve.metric @ (t * t))
 
     @cached_property
     def floquet(self) -> Floquet:
@@ -161,16 +163,6 @@ class CycleCurve:
         """The free parameter."""
         return self.space.free
 
-    @cached_property
-    def rows(self) -> Array:
-        """The phase condition as a border row (1, N, m n)."""
-        return self.anchor.row[np.newaxis]
-
-    @cached_property
-    def no_scalars(self) -> Array:
-        """Its entries for T and the free parameters."""
-        return np.zeros((1, len(self.sizes)))
-
     def values(self, u: Array) -> Array:
         """The free parameters."""
         return self.space.split(u).free
@@ -182,10 +174,8 @@ class CycleCurve:
 
     def linearised(self, u: Array) -> CycleLinearisation:
         """Residual and condensed Jacobian."""
-        orbit = self.space.split(u)
-        f, J = self.space.evaluate(orbit)
-        residual = self.space.residual(u, f, self.anchor.row, self.anchor.level)
-        return CycleLinearisation(self, residual, Factors.of(self.space, J, f, orbit.period))
+        at = Factors.at(self.space, u, self.anchor.row, self.anchor.level)
+        return CycleLinearisation(self, at.residual, at.factors)
 
     def on(self, space: Collocation, u: Array) -> CycleCurve:
         """The same problem on another mesh, anchored at a vector of its unknowns."""
@@ -225,35 +215,35 @@ class CycleCurve:
         """The problem anchored at u, where that is due on a mesh that suits an estimated error."""
         space, mesh = self.space, self.mesh
         if not self.due:
-            return Renewal(self._with(Anchor.at(space, u), self.age + 1))
+            older = CycleCurve(
+                space, self.sizes, self.metric, Anchor.at(space, u), mesh, self.age + 1, self.error,
+                self.unchecked, self.orientation,
+            )  # fmt: skip
+            return Renewal(older)
         orbit = space.split(u)
         count = refinement.intervals_for(len(space.h), error, mesh.accuracy or np.inf)
-        moved = replace(space, h=meshes.equidistributed(space, orbit, min(count, mesh.most)))
+        moved = space.on(meshes.equidistributed(space, orbit, min(count, mesh.most)))
 
         def transfer(v: Array) -> Array:
             return meshes.moved(space, moved, v)
 
         unchecked = self.unchecked + 1 if error == self.error else 0
-        fresh = self.on(moved, transfer(u))
-        return Renewal(replace(fresh, error=error, unchecked=unchecked), transfer)
-
-    def _with(self, anchor: Anchor, age: int) -> CycleCurve:
-        """The same with another anchor; written out, as it is made at every step."""
-        return CycleCurve(
-            self.space, self.sizes, self.metric, anchor, self.mesh, age, self.error,
-            self.unchecked, self.orientation,
+        fresh = CycleCurve(
+            moved, self.sizes, _metric(moved, self.sizes), Anchor.at(moved, transfer(u)), mesh, 0,
+            error, unchecked, self.orientation,
         )  # fmt: skip
+        return Renewal(fresh, transfer)
 
     def tests(self, point: Point) -> Mapping[str, float]:
         """fold: the parameter turns; branch: another branch crosses; flip: a multiplier of what was
         computed passes -1; torus: two have the product one; birth: the cycle passes size zero.
         """
-        floquet = point.linearisation.floquet
+        watched = point.linearisation.floquet.watched
         return {
             "fold": float(point.tangent[-1]),
             "branch": self.orientation * point.determinant,
-            "flip": floquet.flip,
-            "torus": floquet.torus,
+            "flip": watched.flip,
+            "torus": watched.torus,
             "birth": self.alignment(point.u),
         }
 
@@ -277,28 +267,24 @@ class CycleCurve:
     def cycle(self, u: Array, floquet: Floquet) -> Cycle:
         """A vector of unknowns as a cycle that keeps nothing of the solver."""
         space, orbit = self.space, self.space.split(u)
-        system = space.system
-        values = space.parameters(orbit.free).tolist()
+        values = space.fixed | dict(zip(space.free, orbit.free.tolist(), strict=True))
+        signs = space.sign_tuple if space.half else None
         return Cycle(
-            system.state_names,
-            dict(zip(system.parameter_names, values, strict=True)),
-            orbit.period,
-            space.mesh,
-            orbit.nodes.copy(),
-            tuple(space.signs.tolist()) if space.half else None,
+            space.system.state_names, values, orbit.period, space.mesh, orbit.nodes.copy(), signs,
             floquet.computed,
-        )
+        )  # fmt: skip
 
     def ended(self, point: Point) -> str:
         """Ends where the cycle has shrunk to an equilibrium, or the mesh no longer resolves it."""
         if self.alignment(point.u) < 0:
             return "the cycle shrank to an equilibrium: a Hopf point"
         floquet = point.linearisation.floquet
-        if floquet.trivial_error > LOST:
+        off = floquet.watched.trivial_error
+        if off > LOST:
             return (
-                f"the Floquet multipliers are lost: the trivial one is off by "
-                f"{floquet.trivial_error:.1e} beside one of {abs(floquet.multipliers[0]):.1e}; the "
-                "cycle touches a singularity of the field"
+                f"the Floquet multipliers are lost: the trivial one is off by {off:.1e} beside "
+                f"one of {abs(floquet.multipliers[0]):.1e}; the cycle touches a singularity of the "
+                "field"
             )
         if self.error > UNRESOLVED and len(self.space.h) >= self.mesh.most:
             return (
@@ -321,6 +307,7 @@ def _oriented(old: CycleCurve, point: Point, renewal: Renewal) -> CycleCurve:
 
 
 def _metric(space: Collocation, sizes: Array) -> Array:
-    N, _, n = space.shape
-    none = np.zeros((N + 1, n))
-    return space.join(none, space.weights, sizes[0] ** -2, sizes[1:] ** -2.0)
+    (N, m, n), inner = space.shape, space.inner
+    metric = np.zeros(space.size)
+    metric[:inner].reshape(N, m + 1, n)[:, 1:], metric[inner + n :] = space.weights, sizes**-2.0
+    return metric

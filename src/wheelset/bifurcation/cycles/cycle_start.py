@@ -336,9 +336,10 @@ def cycle_from_crossing(
     tangent (N,): the first branch's there. Sets out along the kernel's other direction.
     """
     curve, u = known(system, cycle, (parameter,), (width,), mesh)
-    linearisation, row = curve.linearised(u), curve.metric * tangent
     anything = np.random.default_rng(7).standard_normal(len(u) - 1)
-    return _beside(curve, u, linearisation.solve(row, anything, 0.0), size)
+    linearisation = replace(curve.linearised(u), residual=anything)
+    away, _ = linearisation.newton(curve.metric * tangent)
+    return _beside(curve, u, away, size)
 
 
 def _beside(curve: CycleCurve, u: Array, away: Array, size: float) -> Start[CycleCurve]:

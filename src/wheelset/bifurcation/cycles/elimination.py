@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from wheelset.bifurcation.cycles.dense import gauss_elimination, unit_matrix
-from wheelset.bifurcation.cycles.vectors import entry, load, part, plus, store, times, zeros
+from wheelset.bifurcation.cycles.vectors import load, part, plus, store, times, zeros
 
 #: Greatest entry on the diagonal of the inverse of a stage's pivot block (about 1/4 on a fine mesh,
 #: whatever the units) up to which stages are eliminated in order: rounding errors grow like it.
@@ -29,7 +29,7 @@ SAFE = 20.0
 SINGULAR = 1e12
 
 
-@entry
+@part
 def eliminate(
     J: Any, f: Any, extra: Any, kappa: float, period: float, h: Any, slopes: Any, at_one: Any,
     signs: Any, responses: Any,

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from wheelset.bifurcation.curves.zero_problem import SingularSystem
 from wheelset.bifurcation.cycles import condensed
-from wheelset.bifurcation.cycles.collocation import Collocation
-from wheelset.bifurcation.cycles.elimination import eliminate
-from wheelset.bifurcation.cycles.reduction import reduce
+from wheelset.bifurcation.cycles.collocation import Collocation, Orbit
+from wheelset.bifurcation.cycles.factorisation import factorise
 from wheelset.bifurcation.cycles.transposed import transposed
 
 Array = NDArray[np.float64]
 
-_NONE = np.empty(0)
+_NONE, _NOTHING = np.empty(0), np.empty((0, 0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,20 +40,47 @@ class Factors:
 
         extra (N, m, n, e): further forcings. Raises SingularSystem.
         """
+        none = space.no_weights
+        return cls._with(space, J, f, period, extra, (_NONE, none, 0.0, _NONE))
+
+    @classmethod
+    def at(
+        cls, space: Collocation, u: Array, row: Array, level: float, extra: Array | None = None
+    ) -> Linearised:
+        """The factors at a vector of unknowns, with what they are made of.
+
+        row (N, m n), level: the phase condition is row . X = level. Raises SingularSystem, or what
+        the field raises.
+        """
+        orbit = space.split(u)
+        f, J = space.evaluate(orbit)
+        residual = np.empty(space.inner + len(space.signs) + 1)
+        phase = u, row, level, residual
+        return Linearised(residual, cls._with(space, J, f, orbit.period, extra, phase), orbit, J)
+
+    @classmethod
+    def _with(
+        cls, space: Collocation, J: Array, f: Array, period: float, extra: Array | None,
+        phase: tuple[Array, Array, float, Array],
+    ) -> Factors:  # fmt: skip
+        """phase: unknowns, row and level of the phase condition, and the residual to be filled."""
         N, m, n = space.shape
-        further = space.no_forcing if extra is None else extra
-        count, rule, signs = 1 + J.shape[3] - n + further.shape[3], space.rule, space.sign_tuple
-        responses = np.empty((N, (m + 1) * n + count, (m + 1) * n))
-        links, forced = np.empty((N, 3 * n, 2 * n)), np.empty((N, count, n))
-        stages, singular = eliminate(
-            J, f, further, space.kappa, period, space.h, rule.slopes, rule.at_one, signs, responses
+        further, rule = space.no_forcing if extra is None else extra, space.rule
+        count, (u, row, level, residual) = 1 + J.shape[3] - n + further.shape[3], phase
+        arrays = (
+            np.empty((N, (m + 1) * n + count, (m + 1) * n)),
+            np.empty((N, 3 * n, 2 * n)),
+            np.empty((N, count, n)),
         )
+        sign, singular = factorise(
+            u, f, J, further, row, level, space.kappa, period, space.h, rule.slopes, rule.at_one,
+            space.sign_tuple, residual, arrays,
+        )  # fmt: skip
         if singular >= 0:
             raise SingularSystem(f"collocation equations of mesh interval {singular}")
-        sign = stages * reduce(responses, rule.at_one, signs, links, forced)
         if sign == 0.0:
             raise SingularSystem("collocation equations of neighbouring mesh intervals")
-        return cls(space, (responses, links, forced), sign)
+        return cls(space, arrays, sign)
 
     @property
     def pencil(self) -> tuple[Array, Array]:
@@ -61,26 +88,24 @@ class Factors:
         n, links = self.collocation.shape[2], self.arrays[1]
         return links[0, :n, :n], links[0, :n, n:]
 
-    def step(
-        self, rows: Array, D: Array, row: Array, rhs: Array | None, last: float
-    ) -> tuple[float, Array]:
-        """A Newton step or a tangent: unknown scalars are the period and the k free parameters.
+    def newton(
+        self, rows: Array, D: Array, row: Array, residual: Array
+    ) -> tuple[float, Array, Array]:
+        """A Newton step and the tangent: unknown scalars are the period and the k free parameters.
 
-        rows (k, N, m n), D (k, k + 1): fixed border rows. row (size,): one more, laid out as the
-        unknowns, with no entries for mesh values. rhs: [stages | mesh | boundary | rows] or None
-        for zero; last: the row's. Returns the determinant up to a positive factor, and the vector
-        of unknowns. Raises SingularSystem.
+        rows (k N m n, in any shape), D (k, k + 1): fixed border rows. row (size,): one more, laid
+        out as the unknowns, without entries for mesh values. residual: [stages | mesh | boundary |
+        rows].
+        Returns the determinant up to a positive factor, x with J x = residual, row . x = 0, and t
+        with J t = 0, row . t = 1. Raises SingularSystem.
         """
-        space, k = self.collocation, len(rows)
-        x, e = np.empty(space.size), np.zeros(k + 1)
-        right, e[k] = _NONE, last
-        if rhs is not None:
-            right, e[:k] = rhs, rhs[-k:]
+        space = self.collocation
+        both = np.empty((2, space.size))
         determinant = condensed.solve(
             self.arrays, space.rule.at_one, space.sign_tuple, space.scalars, rows.reshape(-1), D,
-            row, right, e, x,
+            row, residual[np.newaxis], space.last_row, both,
         )  # fmt: skip
-        return self._checked(determinant), x
+        return self._checked(determinant), both[0], both[1]
 
     def solve(
         self, columns: NDArray[np.int64], weights: Array, D: Array, right: Array | None, e: Array,
@@ -94,14 +119,14 @@ class Factors:
         """
         space = self.collocation
         (N, m, n), inner = space.shape, space.inner
-        u = np.empty(inner + n + len(columns))
+        u = np.empty((1, inner + n + len(columns)))
         determinant = condensed.solve(
             self.arrays, space.rule.at_one, self._signs(signs), columns, weights.reshape(-1), D,
-            _NONE, _NONE if right is None else right, e, u,
+            _NONE, _NOTHING if right is None else right[np.newaxis], e[np.newaxis], u,
         )  # fmt: skip
-        blocks, x = u[:inner].reshape(N, (m + 1) * n), u[: inner + n]
+        blocks, x = u[0, :inner].reshape(N, (m + 1) * n), u[0, : inner + n]
         mesh = np.append(blocks[:, :n], x[inner:]).reshape(N + 1, n)
-        return self._checked(determinant), mesh, blocks[:, n:].copy(), u[inner + n :]
+        return self._checked(determinant), mesh, blocks[:, n:].copy(), u[0, inner + n :]
 
     def transposed(
         self,
@@ -131,3 +156,16 @@ class Factors:
         if not abs(determinant) > 0.0:
             raise SingularSystem("collocation equations with their border rows")
         return self.sign * determinant
+
+
+class Linearised(NamedTuple):
+    """The equations at a vector of unknowns.
+
+    residual: [stages | mesh | boundary | phase], see ``condensed``. orbit: the unknowns' parts.
+    J (N, m, n, n + k): derivatives of f at the stages.
+    """
+
+    residual: Array
+    factors: Factors
+    orbit: Orbit
+    J: Array

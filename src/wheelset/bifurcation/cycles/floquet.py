@@ -7,12 +7,9 @@ N = S Phi(T/2) for half a period of a symmetric cycle, where M = N^2.
 
 from __future__ import annotations
 
-import cmath
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
@@ -47,17 +44,16 @@ class Floquet:
     @classmethod
     def of(cls, factors: Factors) -> Floquet:
         """Multipliers from the factors of the linearised equations."""
-        G, E = factors.pencil
-        signs = factors.collocation.signs
-        matrix = -G
-        if _solved(E * signs, matrix) < GROWTH:
+        space = factors.collocation
+        matrix, small = _formed(factors.arrays[1], space.signs)
+        if small:
             real, imaginary, _, _, info = dgeev(matrix, compute_vl=0, compute_vr=0)
             values = real + 1j * imaginary
         else:  # E is nearly singular where modes grow much: the pencil, which bears that
-            values, info = _pencil_values(G, E * signs)
-        if info or not cmath.isfinite(values.sum()):
+            values, info = _pencil_values(*factors.pencil, space.signs)
+        if info:
             raise NoConvergence("the Floquet multipliers: a mode grows beyond all numbers", ())
-        return cls(values, factors.collocation.half)
+        return cls(values, space.half)
 
     @property
     def multipliers(self) -> NDArray[Any]:
@@ -68,77 +64,92 @@ class Floquet:
     @cached_property
     def nontrivial(self) -> tuple[complex, ...]:
         """What was computed without the trivial multiplier, n - 1 numbers."""
-        return _without(self.computed.tolist(), 1.0)
-
-    @property
-    def trivial_error(self) -> float:
-        """Distance of the trivial multiplier from +1."""
-        return min(abs(value - 1) for value in self.computed.tolist())
+        values = self.computed.tolist()
+        nearest = min(range(len(values)), key=lambda i: abs(values[i] - 1))
+        return (*values[:nearest], *values[nearest + 1 :])
 
     @property
     def unstable(self) -> int:
         """Number of multipliers outside the unit circle."""
         return sum(abs(value) > 1 + UNIT for value in self.nontrivial)
 
-    @property
-    def torus(self) -> float:
-        """prod (mu_i mu_j - 1) over pairs of nontrivial multipliers: zero at Neimark-Sacker (a
-        complex pair on the unit circle) and where two real ones are reciprocal. Each factor is
-        scaled by 1 + |mu_i mu_j|; 1 where there is no pair.
-        """
-        return _pairs(self.nontrivial)
+    @cached_property
+    def watched(self) -> Watched:
+        """The test functions along a branch of cycles."""
+        return Watched(*_watched(self.computed, 0.0))
 
-    def torus_beside(self, critical: float) -> float:
-        """``torus`` without the multiplier nearest to a critical one, +1 or -1."""
-        return _pairs(_without(self.nontrivial, critical))
+    def watched_beside(self, critical: float) -> Watched:
+        """The same where a multiplier is critical, +1 or -1; ``torus`` leaves it out."""
+        return Watched(*_watched(self.computed, critical))
 
-    @property
-    def fold(self) -> float:
-        """prod (mu_i - 1) over nontrivial multipliers, each factor scaled by 1 + |mu_i|."""
-        return _product(self.nontrivial, 1.0)
 
-    @property
-    def flip(self) -> float:
-        """prod (mu_i + 1) over what was computed, each factor scaled by 1 + |mu_i|: zero where a
-        period doubles, or, on half a period, where the symmetry breaks.
-        """
-        return _product(self.computed.tolist(), -1.0)
+class Watched(NamedTuple):
+    """Test functions of the multipliers mu; the trivial one counts in ``flip`` alone.
+
+    trivial_error: distance of the trivial multiplier from +1.
+    fold: prod (mu_i - 1), each factor scaled by 1 + |mu_i|.
+    flip: prod (mu_i + 1), scaled alike: zero where a period doubles, or, on half a period, where
+    the symmetry breaks.
+    torus: prod (mu_i mu_j - 1) over pairs, each factor scaled by 1 + |mu_i mu_j|: zero at
+    Neimark-Sacker (a complex pair on the unit circle) and where two real ones are reciprocal; 1
+    where there is no pair.
+    """
+
+    trivial_error: float
+    fold: float
+    flip: float
+    torus: float
 
 
 @njit(cache=True, error_model="numpy")
-def _solved(A: Array, B: Array) -> float:
-    """B <- A^-1 B; its greatest entry, inf where A is singular."""
-    most = 0.0 if gauss_elimination(A, B) != 0.0 else np.inf
-    for r in range(B.shape[0]):
-        for c in range(B.shape[1]):
-            most = max(most, abs(B[r, c]))
-    return most
+def _formed(links: Array, signs: Array) -> tuple[Array, bool]:
+    """-(E S)^-1 G, and whether its entries are below ``GROWTH``; links (N, 3 n, 2 n) of
+    ``reduction``.
+    """
+    n = signs.shape[0]
+    ES, matrix = np.empty((n, n)), np.empty((n, n))
+    for r in range(n):
+        for c in range(n):
+            matrix[r, c], ES[r, c] = -links[0, r, c], links[0, r, n + c] * signs[c]
+    small = gauss_elimination(ES, matrix) != 0.0
+    for r in range(n):
+        for c in range(n):
+            small = small and abs(matrix[r, c]) < GROWTH
+    return matrix, small
 
 
-def _pencil_values(G: Array, ES: Array) -> tuple[NDArray[Any], int]:
-    """Eigenvalues of -G x = mu E S x; a number that is not 0 where one is infinite."""
-    real, imaginary, beta, _, _, _, info = dggev(-G, ES, compute_vl=0, compute_vr=0)
+@njit(cache=True, error_model="numpy")
+def _watched(values: NDArray[Any], critical: float) -> tuple[float, float, float, float]:
+    """The numbers of ``Watched``; critical: left out of the last one, none if 0."""
+    n, fold, flip, torus = values.shape[0], 1.0 + 0.0j, 1.0 + 0.0j, 1.0 + 0.0j
+    trivial = _nearest(values, 1.0, -1)
+    other = -1 if critical == 0.0 else _nearest(values, critical, trivial)
+    for i in range(n):
+        scale = 1.0 + abs(values[i])
+        flip *= (values[i] + 1.0) / scale
+        if i != trivial:
+            fold *= (values[i] - 1.0) / scale
+            for j in range(i):
+                if j != trivial and i != other and j != other:
+                    product = values[i] * values[j]
+                    torus *= (product - 1.0) / (1.0 + abs(product))
+    return abs(values[trivial] - 1.0), fold.real, flip.real, torus.real
+
+
+@njit(cache=True, error_model="numpy")
+def _nearest(values: NDArray[Any], one: float, without: int) -> int:
+    """Which of the values, but for one of them, is nearest to a number; -1 where there is none."""
+    best, least = -1, np.inf
+    for i in range(values.shape[0]):
+        away = abs(values[i] - one)
+        if i != without and away < least:
+            best, least = i, away
+    return best
+
+
+def _pencil_values(G: Array, E: Array, signs: Array) -> tuple[NDArray[Any], int]:
+    """Eigenvalues of -G x = mu E S x; a number that is not 0 where one is not finite."""
+    real, imaginary, beta, _, _, _, info = dggev(-G, E * signs, compute_vl=0, compute_vr=0)
     values = (real + 1j * imaginary) / np.where(beta == 0, 1.0, beta)
-    return values, info or int(not beta.all())
-
-
-def _product(values: Sequence[complex], critical: float) -> float:
-    """prod (mu_i - critical)/(1 + |mu_i|)."""
-    product = 1.0 + 0.0j
-    for value in values:
-        product *= (value - critical) / (1 + abs(value))
-    return product.real
-
-
-def _without(values: Sequence[complex], one: float) -> tuple[complex, ...]:
-    """Values without the one nearest to a number."""
-    nearest = min(range(len(values)), key=lambda i: abs(values[i] - one))
-    return (*values[:nearest], *values[nearest + 1 :])
-
-
-def _pairs(values: Sequence[complex]) -> float:
-    """prod (mu_i mu_j - 1)/(1 + |mu_i mu_j|) over pairs."""
-    product = 1.0 + 0.0j
-    for a, b in combinations(values, 2):
-        product *= (a * b - 1) / (1 + abs(a * b))
-    return product.real
+    finite = beta.all() and np.isfinite(values).all()
+    return values, info or int(not finite)

@@ -12,6 +12,7 @@ Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, section II.7
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -66,10 +67,17 @@ class Gauss:
         return self.end, *self.d.tolist()
 
     @cached_property
-    def leading(self) -> Array:
-        """Weights (m + 1,) of the values that give the coefficient of s^m."""
+    def at_zero(self) -> Array:
+        """Weights (m,) of the values at the Gauss points that extrapolate to 0."""
+        products = [np.delete(-self.c, i) / np.delete(x - self.c, i) for i, x in enumerate(self.c)]
+        return np.array([product.prod() for product in products])
+
+    @cached_property
+    def highest(self) -> Array:
+        """Weights (m + 1,) of the values that give the derivative of order m."""
         nodes = self.nodes
-        return np.array([1 / np.prod(x - np.delete(nodes, i)) for i, x in enumerate(nodes)])
+        leading = [1 / np.prod(x - np.delete(nodes, i)) for i, x in enumerate(nodes)]
+        return np.array(leading) * math.factorial(self.m)
 
     @cached_property
     def slopes(self) -> Array:

@@ -7,29 +7,61 @@ share of its (m + 1)-th root.
 
 from __future__ import annotations
 
-import math
+from typing import Any
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
 from wheelset.bifurcation.cycles.collocation import Collocation, Orbit
+from wheelset.bifurcation.cycles.vectors import entry, load, part, plus, store, zeros
 
 Array = NDArray[np.float64]
 
 #: Part of the mean density that every interval has at least: no interval grows without bound.
 FLOOR = 0.1
 
+#: Instead of the mean density of a function without any.
+TINY = float(np.finfo(float).tiny)
 
-def derivative(space: Collocation, orbit: Orbit) -> Array:
-    """Scaled norm of the derivative of order m + 1 on each interval, (N,)."""
-    weights = space.rule.leading * math.factorial(space.rule.m)
-    return _derivative(orbit.nodes, space.h, weights, space.signs, space.scales)
+
+def equidistributed(space: Collocation, orbit: Orbit, intervals: int | None = None) -> Array:
+    """Interval lengths (intervals,) that give each the same share of the error."""
+    count = len(space.h) if intervals is None else intervals
+    highest = space.rule.highest
+    return np.asarray(
+        _equidistributed(orbit.nodes, space.h, highest, space.signs, space.scales, count)
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def _equidistributed(
+    nodes: Array, h: Array, weights: Array, signs: Array, scales: Array, count: int
+) -> Array:
+    """Lengths (count,), each with the same integral of the density, which is the derivative of
+    order m + 1 to the power 1/(m + 1), no less than ``FLOOR`` of its mean.
+
+    weights (m + 1,): of the values, for the m-th derivative on an interval of length one.
+    """
+    density = _derivative(nodes, h, weights, signs, scales) ** (1.0 / nodes.shape[1])
+    density += FLOOR * max((density * h).sum(), TINY)
+    total, out = (density * h).sum(), np.empty(count)
+    j, left, place = 0, density[0] * h[0], 0.0  # what is left of interval j, and where it begins
+    for i in range(count):
+        wanted, begin = total / count, place
+        while wanted > left and j + 1 < len(h):
+            wanted, place = wanted - left, place + left / density[j]
+            j += 1
+            left = density[j] * h[j]
+        place += wanted / density[j]
+        left -= wanted
+        out[i] = place - begin
+    return out / place
 
 
 @njit(cache=True, error_model="numpy")
 def _derivative(nodes: Array, h: Array, weights: Array, signs: Array, scales: Array) -> Array:
-    """weights (m + 1,): of the values, for the m-th derivative on an interval of length one."""
+    """Scaled norm of the derivative of order m + 1 on each interval, (N,)."""
     N, width, n = nodes.shape
     highest, jumps = np.zeros((N + 1, n)), np.empty(N)
     for j in range(N):
@@ -47,55 +79,58 @@ def _derivative(nodes: Array, h: Array, weights: Array, signs: Array, scales: Ar
     return density
 
 
-def equidistributed(space: Collocation, orbit: Orbit, intervals: int | None = None) -> Array:
-    """Interval lengths (intervals,) that give each the same share of the error."""
-    density = derivative(space, orbit) ** (1 / (space.rule.m + 1))
-    density += FLOOR * max(float((density * space.h).sum()), np.finfo(float).tiny)
-    share = np.concatenate([[0.0], np.cumsum(density * space.h)])
-    count = len(space.h) if intervals is None else intervals
-    targets = np.linspace(0, share[-1], count + 1)
-    return np.diff(np.interp(targets, share, space.mesh))
-
-
 def moved(old: Collocation, new: Collocation, v: Array) -> Array:
-    """A vector of unknowns (point or tangent) with its polynomials evaluated on another mesh."""
-    orbit = old.split(v)
-    nodes = _resampled(orbit.nodes, old.mesh, new.mesh, old.rule.nodes)
-    return np.concatenate([nodes.ravel(), orbit.last, [orbit.period], orbit.free])
+    """Vectors of unknowns (..., size), points or tangents, with their polynomials evaluated on
+    another mesh.
+    """
+    rows, out = v.reshape(-1, old.size), np.empty((*v.shape[:-1], new.size))
+    _resampled(rows, old.mesh, new.mesh, old.rule.nodes, old.sign_tuple, out.reshape(-1, new.size))
+    return out
 
 
 def carried(old: Collocation, new: Collocation, stages: Array) -> Array:
     """A function given at the stages alone (N, m, n), on another mesh; for borders, which need not
     be exact: polynomials of degree m - 1 on each interval.
     """
-    c, m = old.rule.c, old.rule.m
-    at_zero = np.array(
-        [np.prod(np.delete(-c, i)) / np.prod(c[i] - np.delete(c, i)) for i in range(m)]
-    )
-    left = np.einsum("i,jin->jn", at_zero, stages)
-    nodes = np.concatenate([left[:, np.newaxis], stages], axis=1)
-    moved_nodes = _resampled(nodes, old.mesh, new.mesh, old.rule.nodes)
-    return np.ascontiguousarray(moved_nodes[:, 1:])
+    N, m, n = old.shape
+    nodes, out = np.empty((N, m + 1, n)), np.empty((len(new.h), m + 1, n))
+    nodes[:, 1:], nodes[:, 0] = stages, old.rule.at_zero @ stages
+    _resampled(
+        nodes.reshape(1, -1), old.mesh, new.mesh, old.rule.nodes, old.sign_tuple,
+        out.reshape(1, -1),
+    )  # fmt: skip
+    return out[:, 1:].copy()
 
 
-@njit(cache=True, error_model="numpy")
-def _resampled(nodes: Array, mesh: Array, finer: Array, c: Array) -> Array:
-    """Values at the left end and the Gauss points of every interval of another mesh."""
-    N, k, n = nodes.shape
-    count = finer.shape[0] - 1
-    out = np.zeros((count, k, n))
-    j = 0
+@entry
+def _resampled(rows: Any, mesh: Any, finer: Any, c: Any, signs: Any, out: Any) -> None:
+    """Rows of nodes (N, m + 1, n) and whatever follows them, with the nodes at the left end and the
+    Gauss points of every interval of another mesh, to ``out``. c (m + 1,): 0 and the Gauss points.
+    """
+    N, k, n, count = mesh.shape[0] - 1, c.shape[0], len(signs), finer.shape[0] - 1
+    basis, j = np.empty(k), 0
     for i in range(count):
         for q in range(k):
             at = finer[i] + c[q] * (finer[i + 1] - finer[i])
             while j + 1 < N and mesh[j + 1] <= at:
                 j += 1
-            s = (at - mesh[j]) / (mesh[j + 1] - mesh[j])
-            for e in range(k):
-                weight = 1.0
-                for o in range(k):
-                    if o != e:
-                        weight *= (s - c[o]) / (c[e] - c[o])
-                for r in range(n):
-                    out[i, q, r] += weight * nodes[j, e, r]
-    return out
+            _fill_basis((at - mesh[j]) / (mesh[j + 1] - mesh[j]), c, basis)
+            for row in range(rows.shape[0]):
+                value = zeros(signs, (0,))
+                for e in range(k):
+                    value = plus(value, basis[e], load(value, rows, (row, (j * k + e) * n)))
+                store(out, (row, (i * k + q) * n), value)
+    for row in range(rows.shape[0]):
+        for i in range(rows.shape[1] - N * k * n):
+            out[row, count * k * n + i] = rows[row, N * k * n + i]
+
+
+@part
+def _fill_basis(s: float, c: Any, basis: Any) -> None:
+    """Lagrange basis (m + 1,) on c at s."""
+    for e in range(c.shape[0]):
+        above, below = 1.0, 1.0
+        for o in range(c.shape[0]):
+            if o != e:
+                above, below = above * (s - c[o]), below * (c[e] - c[o])
+        basis[e] = above / below

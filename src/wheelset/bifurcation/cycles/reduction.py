@@ -22,10 +22,10 @@ from typing import Any
 import numpy as np
 
 from wheelset.bifurcation.cycles.dense import unit_matrix
-from wheelset.bifurcation.cycles.vectors import dot, entry, load, part, plus, store, times, zeros
+from wheelset.bifurcation.cycles.vectors import dot, load, part, plus, store, times, zeros
 
 
-@entry
+@part
 def reduce(responses: Any, at_one: Any, signs: Any, links: Any, forced: Any) -> float:
     """Fill links and forced from ``elimination.eliminate``'s responses.
 

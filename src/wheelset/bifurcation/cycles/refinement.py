@@ -6,7 +6,6 @@ is the error of the coarser solution, to within a part in 2^8.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,7 +30,7 @@ MOST, SPARE = 3.0, 1.15
 
 def finer(curve: CycleCurve, u: Array) -> tuple[CycleCurve, Array]:
     """The same problem on twice as many intervals, and u's polynomials there."""
-    space = replace(curve.space, h=np.repeat(curve.space.h, 2) / 2)
+    space = curve.space.on(np.repeat(curve.space.h, 2) / 2)
     guess = meshes.moved(curve.space, space, u)
     return curve.on(space, guess), guess
 
@@ -41,7 +40,7 @@ def mesh_error(curve: CycleCurve, u: Array, tangent: Array) -> float:
     fine, guess = finer(curve, u)
     row = fine.metric * meshes.moved(curve.space, fine.space, tangent)
     linearisation = fine.linearised(guess)
-    change = fine.space.split(linearisation.solve(row, linearisation.residual, 0.0))
+    change = fine.space.split(linearisation.newton(row)[0])
     size, scales = np.abs(curve.space.split(u).mesh_values).max(axis=0), curve.space.scales
     size = np.maximum(size, ABSENT * scales * (size / scales).max())
     moved = np.abs(change.nodes[::2, 0]) / size

@@ -27,11 +27,11 @@ def transposed(
     N, n, size = factors[2].shape[0], len(signs), (len(at_one) - 1) * len(signs)
     k = columns.shape[0]
     carried, delta, y = np.empty((k, 2 * n)), D.copy(), np.empty((k, N, n))
-    nothing, x = np.zeros(N * (size + n)), np.zeros((n + k, 1))
+    nobody, none, x = np.empty((0, 0)), np.empty(0), np.zeros((n + k, 1))
     for b in range(k):
         reduce_row(
-            factors, at_one, signs, columns, rows, b * N * size, size, nothing, delta[b],
-            carried[b], y[b],
+            factors, at_one, signs, columns, rows, b * N * size, size, nobody, delta[b],
+            carried[b], y[b], none,
         )  # fmt: skip
         x[n + b, 0] = t[b]
     B, scale = closing(factors, columns, signs, carried, delta)
