@@ -43,39 +43,59 @@ def _equidistributed(
 
     weights (m + 1,): of the values, for the m-th derivative on an interval of length one.
     """
-    density = _derivative(nodes, h, weights, signs, scales) ** (1.0 / nodes.shape[1])
-    density += FLOOR * max((density * h).sum(), TINY)
-    total, out = (density * h).sum(), np.empty(count)
-    j, left, place = 0, density[0] * h[0], 0.0  # what is left of interval j, and where it begins
+    density, total = _density(nodes, h, weights, signs, scales)
+    out, place = np.empty(count), 0.0
+    j, left = 0, density[0] * h[0]  # what is left of interval j
     for i in range(count):
         wanted, begin = total / count, place
-        while wanted > left and j + 1 < len(h):
+        while wanted > left and j + 1 < h.shape[0]:
             wanted, place = wanted - left, place + left / density[j]
             j += 1
             left = density[j] * h[j]
         place += wanted / density[j]
         left -= wanted
         out[i] = place - begin
-    return out / place
+    for i in range(count):
+        out[i] /= place
+    return out
+
+
+@njit(cache=True, error_model="numpy")
+def _density(
+    nodes: Array, h: Array, weights: Array, signs: Array, scales: Array
+) -> tuple[Array, float]:
+    """The density on each interval (N,), and its integral."""
+    density, mean, total = _derivative(nodes, h, weights, signs, scales), 0.0, 0.0
+    for j in range(h.shape[0]):
+        density[j] **= 1.0 / nodes.shape[1]
+        mean += density[j] * h[j]
+    for j in range(h.shape[0]):
+        density[j] += FLOOR * max(mean, TINY)
+        total += density[j] * h[j]
+    return density, total
 
 
 @njit(cache=True, error_model="numpy")
 def _derivative(nodes: Array, h: Array, weights: Array, signs: Array, scales: Array) -> Array:
-    """Scaled norm of the derivative of order m + 1 on each interval, (N,)."""
+    """Scaled norm of the derivative of order m + 1 on each interval, (N,): from the jumps of the
+    m-th at both ends.
+    """
     N, width, n = nodes.shape
-    highest, jumps = np.zeros((N + 1, n)), np.empty(N)
+    highest, density = np.zeros((N + 1, n)), np.zeros(N)
     for j in range(N):
         for r in range(n):
             for k in range(width):
                 highest[j, r] += weights[k] * nodes[j, k, r]
             highest[j, r] /= h[j] ** (width - 1) * scales[r]
-    highest[N] = signs * highest[0]
+    for r in range(n):
+        highest[N, r] = signs[r] * highest[0, r]
     for j in range(N):  # at the right end of interval j
-        jump = np.sqrt(((highest[j + 1] - highest[j]) ** 2).sum())
-        jumps[j] = jump / (0.5 * (h[j] + h[(j + 1) % N]))
-    density = np.empty(N)
-    for j in range(N):
-        density[j] = 0.5 * (jumps[j] + jumps[j - 1])
+        square, following = 0.0, (j + 1) % N
+        for r in range(n):
+            square += (highest[j + 1, r] - highest[j, r]) ** 2
+        half = np.sqrt(square) / (h[j] + h[following])
+        density[j] += half
+        density[following] += half
     return density
 
 

@@ -1,0 +1,163 @@
+"""What became of every cycle bifurcation that section 3 prints: found, elsewhere, or no such thing.
+
+A doubling of a symmetric cycle does not exist (it would need eigenvalues +-i of N = S Phi(T/2) at
+once), so that a real one belongs to asymmetric cycles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+import pandas as pd
+
+from wheelset.bifurcation.curves.branch import SpecialPoint
+from wheelset.studies.flange_cycle_artefacts import (
+    Cycles,
+    Printed,
+    artefact,
+    at_hopf,
+    printed_points,
+    speed_of,
+)
+from wheelset.studies.flange_cycle_claims import largest_amplitude
+from wheelset.studies.flange_cycles import Family
+
+#: The words of the verdicts.
+REAL = "real"
+ELSEWHERE = "real, at another speed"
+CURVED_ONLY = "real if curvatures are kept"
+ARTEFACT = "artefact"
+OUTSIDE = "outside the domain"
+
+#: A point this near to print is the printed one, m/s: the tolerance of cycle bifurcations.
+NEAR = 0.505
+
+#: Which coefficient MATCONT prints.
+PRINTED_COEFFICIENT = {"LPC": "b", "PD": "c MATCONT"}
+
+
+def verdict_frame(
+    items: pd.DataFrame, filed: Iterable[Family], curved: Iterable[Family]
+) -> pd.DataFrame:
+    """A verdict on every printed bifurcation of cycles.
+
+    items: item, quantity, published (of section 3). Columns: item, case, law, point, printed m/s,
+    found m/s and coefficient (as MATCONT prints it, 1/s) in the cases as filed, found_curved and
+    coefficient_curved with the curvature terms (NaN: none), y m (largest |y| of what the print is
+    taken for), verdict, evidence.
+    """
+    printed = printed_points(items)
+    here, there = tuple(filed), tuple(curved)
+    return pd.DataFrame(
+        [_row(one, printed, _cycles(here, one), _cycles(there, one)) for one in printed]
+    )
+
+
+def computed_numbers(
+    items: pd.DataFrame, verdicts: pd.DataFrame, curves: pd.DataFrame
+) -> dict[tuple[str, str], float | None]:
+    """Our number for each item of section 3, in its unit; None where there is none.
+
+    curves: ``curve_frame``, for the largest amplitude of case 1 without flange force.
+    """
+    rows = verdicts.set_index("item")
+    numbers: dict[tuple[str, str], float | None] = {}
+    for item, quantity in zip(items["item"], items["quantity"], strict=True):
+        if item in rows.index:
+            column = "coefficient" if quantity == "nfc" else "found"
+            value = float(rows.loc[item, column])
+            numbers[item, quantity] = None if np.isnan(value) else value
+        elif quantity == "amplitude":
+            numbers[item, quantity] = largest_amplitude(curves) * 1e3
+    return numbers
+
+
+def _cycles(families: Sequence[Family], one: Printed) -> Cycles:
+    return Cycles(tuple(f for f in families if (f.case, f.law) == (one.case, one.law)))
+
+
+def _row(
+    one: Printed, printed: Sequence[Printed], filed: Cycles, curved: Cycles
+) -> dict[str, object]:
+    folded = filed if filed.nearest("LPC", one.speed) else curved
+    fault = artefact(one, printed, folded)
+    pair = [None if fault else c.nearest(one.point, one.speed) for c in (filed, curved)]
+    word, evidence = (ARTEFACT, fault) if fault else _found(one, filed, curved)
+    (here, b_here), (there, b_there) = (_numbers(one, special) for special in pair)
+    return {
+        "item": one.item, "case": one.case, "law": one.law, "point": one.point,
+        "printed": one.speed, "found": here, "coefficient": b_here, "found_curved": there,
+        "coefficient_curved": b_there, "y": _height(one, filed, curved),
+        "verdict": word, "evidence": evidence,
+    }  # fmt: skip
+
+
+def _numbers(one: Printed, special: SpecialPoint | None) -> tuple[float, float]:
+    """Speed and printed coefficient of a point, NaN in a table where there is none."""
+    if special is None:
+        return np.nan, np.nan
+    return speed_of(special), special.coefficients.get(
+        PRINTED_COEFFICIENT.get(one.point, ""), np.nan
+    )
+
+
+def _height(one: Printed, filed: Cycles, curved: Cycles) -> float:
+    """Largest |y| of the cycle that a printed point is taken for, m."""
+    if at_hopf(one, filed):
+        return 0.0
+    letters = "LPC" if one.point == "BPC" else one.point
+    special = filed.nearest(letters, one.speed) or curved.nearest(letters, one.speed)
+    return np.nan if special is None else max(np.abs(special.solution.extremes("y")))
+
+
+def _found(one: Printed, filed: Cycles, curved: Cycles) -> tuple[str, str]:
+    here, there = (c.nearest(one.point, one.speed) for c in (filed, curved))
+    if here is not None and abs(speed_of(here) - one.speed) <= NEAR:
+        return REAL, _found_words(here, one, filed)
+    if there is not None and abs(speed_of(there) - one.speed) <= NEAR:
+        missing = f"{_nothing(one, filed)} " if here is None else ""
+        return CURVED_ONLY, f"{missing}With the curvature terms: {_found_words(there, one, curved)}"
+    if here is not None:
+        return ELSEWHERE, f"{_found_words(here, one, filed)} {_curved_words(one, there)}".strip()
+    return OUTSIDE, f"{_nothing(one, filed)} {_curved_outside(one, there, curved)}".strip()
+
+
+def _found_words(special: SpecialPoint, one: Printed, cycles: Cycles) -> str:
+    low, high = special.solution.extremes("y")
+    owner = next(f for f in cycles.families if f.branch and special in f.branch.special)
+    sort = "symmetric" if special.solution.symmetric else "asymmetric"
+    speed = speed_of(special)
+    return (
+        f"Found at {speed:.3f} m/s ({speed - one.speed:+.2f}) on {sort} cycles (family "
+        f" {owner.name}), y from {low * 1e3:.2f} to {high * 1e3:.2f} mm."
+    )
+
+
+def _curved_words(one: Printed, there: SpecialPoint | None) -> str:
+    if there is None:
+        return ""
+    return (
+        f"With the curvature terms at {speed_of(there):.2f} ({speed_of(there) - one.speed:+.2f})."
+    )
+
+
+def _nothing(one: Printed, cycles: Cycles) -> str:
+    low, high = cycles.span
+    return (
+        f"No {one.point} in the case as filed, whose cycles were followed over {low:.2f} to "
+        f"{high:.2f} m/s."
+    )
+
+
+def _curved_outside(one: Printed, there: SpecialPoint | None, cycles: Cycles) -> str:
+    low, high = cycles.span
+    inside = "" if low <= one.speed <= high else f", where {one.speed:.2f} does not lie"
+    words = f"With the curvature terms cycles exist from {low:.2f} to {high:.2f} m/s{inside}"
+    nearest = f"; the nearest {one.point} is at {speed_of(there):.2f}" if there is not None else ""
+    reach = max(p.solution.extremes("y")[1] for b in cycles.branches for p in b.points)
+    return f"{words}{nearest}. They end at |y| = {reach * 1e3:.2f} mm: {_ending(cycles)}."
+
+
+def _ending(cycles: Cycles) -> str:
+    return cycles.branches[0].ended.words
