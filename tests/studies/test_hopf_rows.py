@@ -15,11 +15,6 @@ def test_a_window_without_a_hopf_point_says_so():
     assert row["words"] == "no Hopf point between 10 and 20 m/s"
 
 
-def test_table_3_scans_at_a3_of_200_but_for_a3_itself():
-    assert hopf_point.table_3_overrides("a1", 0.05) == ("a3=200.0", "a1=0.05")
-    assert hopf_point.table_3_overrides("a3", -500.0) == ("a3=-500.0",)
-
-
 def test_loci_are_four_curves_on_the_window():
     p = hopf_point.Parameters(v_min=40, v_max=60, resolution="quick")
     frame = hopf_point.eigenvalue_frame(hopf_point.loci(p))

@@ -25,6 +25,9 @@ WIDTH = 10.0
 #: Cycles are followed between these multiples of the Hopf speed.
 BELOW, ABOVE = 0.2, 1.02
 
+#: A period this many times that at the Hopf point: the cycle comes near to other equilibria.
+SLOWED = 3.0
+
 
 @dataclass(frozen=True, eq=False)
 class FirstFold:
@@ -80,8 +83,11 @@ def without_fold(hopf: HopfPoint, branch: Branch) -> str:
             f"{end.values[0]:.2f} m/s their amplitude is {1e3 * end.solution.measure('max y'):.2f} "
             "mm"
         )
+    grown = 1e3 * end.solution.measure("max y")
+    first, last = begin.solution.period, end.solution.period
+    slow = ", slowing down at other equilibria" if last > SLOWED * first else ""
     return (
-        f"no fold of cycles: between {begin.values[0]:.2f} and {end.values[0]:.2f} m/s the "
-        f"amplitude grows to {1e3 * end.solution.measure('max y'):.2f} mm and the period changes "
-        f"from {begin.solution.period:.3f} to {end.solution.period:.3f} s; then {branch.ended}"
+        f"no fold of cycles: from {begin.values[0]:.1f} to {end.values[0]:.1f} m/s the amplitude "
+        f"grows to {grown:.1f} mm and the period goes from {first:.3f} to {last:.2f} s{slow}; "
+        f"then {branch.ended.kind}"
     )

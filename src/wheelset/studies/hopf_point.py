@@ -1,6 +1,6 @@
-"""Section 4, first page: the default Hopf point, the eigenvalues around it, Table 3's Hopf points.
+"""Section 4, first page: the default Hopf point and the eigenvalues around it.
 
-Source: Guo, Shi, Luo, Zeng, Nonlinear Dynamics 104 (2021) 989-1005, section 4 and Table 3.
+Source: Guo, Shi, Luo, Zeng, Nonlinear Dynamics 104 (2021) 989-1005, section 4.
 """
 
 from __future__ import annotations
@@ -15,16 +15,6 @@ from wheelset.bifurcation.equilibria.equilibrium import EigenvalueLoci, eigenval
 from wheelset.hunting import hunting_system
 from wheelset.studies.hopf_rows import first_hopf, hopf_row, stability_changes
 from wheelset.studies.parameters import VehicleName, WindowParameters
-
-#: a3 [1/m2] that the paper takes wherever it scans another coefficient in section 5 and Table 3.
-TABLE_3_A3 = 200.0
-
-#: The rows of Table 3: coefficient and its values in SI units.
-TABLE_3_ROWS: tuple[tuple[str, float], ...] = (
-    *(("a1", value) for value in (0.05, 0.15, 0.25, 0.35)),
-    *(("a3", value) for value in (-500.0, 200.0, 500.0, 5000.0)),
-    *(("c1", value) for value in (-200.0, -50.0, 0.0, 200.0)),
-)
 
 _POINTS = {"quick": 60, "paper": 400}
 
@@ -83,24 +73,3 @@ def eigenvalue_frame(curves: EigenvalueLoci) -> pd.DataFrame:
             "im": curves.eigenvalues.imag.ravel(),
         }
     )
-
-
-def table_3_hopf(p: Parameters, vehicle: str | None = None) -> pd.DataFrame:
-    """Table 3's Hopf points for a vehicle (default: the study's), one row a row of the table.
-
-    Columns: vehicle, parameter, value (SI), v m/s, frequency rad/s, flc, kind, words.
-    """
-    name = vehicle or p.vehicle
-    return pd.DataFrame([_table_3_row(p, name, *row) for row in TABLE_3_ROWS])
-
-
-def _table_3_row(p: Parameters, vehicle: str, parameter: str, value: float) -> dict[str, object]:
-    loaded = p.load(vehicle, rows=table_3_overrides(parameter, value))
-    place = {"vehicle": vehicle, "parameter": parameter, "value": value}
-    return {**place, **hopf_row(first_hopf(stability_changes(loaded, p.window)), p.window)}
-
-
-def table_3_overrides(parameter: str, value: float) -> tuple[str, ...]:
-    """Overrides that make the default vehicle a row of Table 3: a3 = 200 unless a3 is scanned."""
-    fixed = () if parameter == "a3" else (f"a3={TABLE_3_A3}",)
-    return (*fixed, f"{parameter}={value}")
