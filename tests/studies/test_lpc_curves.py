@@ -10,7 +10,6 @@ import pandas as pd
 import pytest
 
 from wheelset.bifurcation.curves.branch import Branch, Ending
-from wheelset.bifurcation.cycles.critical_curve import GH_END
 from wheelset.studies import first_fold, lpc_claims, lpc_curves, table_3
 
 
@@ -46,12 +45,6 @@ def test_a_sheet_reaches_to_where_the_coefficient_turns():
     falling = branch([6.0, 4.0, 2.0, 3.0], start=1)
     assert values_of(lpc_curves.sheet(falling)) == [2.0, 4.0, 6.0]
     assert values_of(lpc_curves.sheet(branch([1.0], start=0))) == [1.0]
-
-
-def test_an_end_on_cycles_of_no_size_is_a_generalised_hopf_point():
-    ends = lpc_curves.arrived(branch([0.0, 1.0], start=0))
-    assert ends.began.words == GH_END
-    assert ends.ended.words == "no convergence"
 
 
 def test_without_a_fold_there_are_words():

@@ -15,9 +15,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from wheelset.bifurcation.curves.branch import Branch, BranchPoint, Ending, SpecialPoint
+from wheelset.bifurcation.curves.branch import Branch, BranchPoint, SpecialPoint
 from wheelset.bifurcation.curves.continuation import both_ways, follow
-from wheelset.bifurcation.cycles.critical_curve import GH_END
 from wheelset.bifurcation.cycles.critical_start import lpc_from_cycle, lpc_from_gh, with_gh_ends
 from wheelset.bifurcation.cycles.cycle import Cycle
 from wheelset.bifurcation.equilibria.hopf_curve import GHPoint, gh_point
@@ -37,10 +36,6 @@ FIGURE_8: tuple[Scan, ...] = (
     Scan("g", "f1", (-2500.0, 1500.0), (-4400.0, 4400.0)),
     Scan("h", "f3", (6.3e6, 6.7e6), (6.3e6, 6.7e6)),
 )
-
-#: A cycle smaller than this, m, is next to a generalised Hopf point, where the test function of
-#: cusps vanishes with the cube of the size: what it finds there is no cusp.
-SMALL = 1e-4
 
 #: Speeds between which folds are followed, m/s.
 FOLD_SPEEDS = (1.0, 400.0)
@@ -119,18 +114,9 @@ def _folds(found: FirstFold, scan: Scan, window: tuple[float, float]) -> tuple[B
             start.problem, start.u, direction=start.tangent, windows=windows, steps=400,
             kind="folds of cycles",
         )  # fmt: skip
-        return with_gh_ends(found.system, arrived(branch)), ""
+        return with_gh_ends(found.system, branch), ""
     except NumericalOutcome as outcome:
         return None, f"the fold could not be followed: {outcome}"
-
-
-def arrived(folds: Branch) -> Branch:
-    """The curve, an end called GH where its cycles have hardly any size, whatever ended it."""
-    began, ended = (
-        Ending("problem", GH_END) if point.solution.measure("max y") < SMALL else ending
-        for point, ending in ((folds.points[0], folds.began), (folds.points[-1], folds.ended))
-    )
-    return replace(folds, began=began, ended=ended)
 
 
 # --- the fold at given values --------------------------------------------------------------------

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from wheelset.bifurcation.curves.branch import Branch, SpecialPoint
-from wheelset.studies.lpc_curves import SMALL, FoldScan
+from wheelset.bifurcation.curves.branch import Branch
+from wheelset.studies.lpc_curves import FoldScan
 from wheelset.studies.section_rows import ends, gh_for, hopf_frame, labelled, special_frame
 
 
@@ -24,19 +24,8 @@ def curve_frame(scans: Sequence[FoldScan]) -> pd.DataFrame:
 def _fold_frame(folds: Branch) -> pd.DataFrame:
     table = folds.table(("max y",)).rename(columns={"max y": "amplitude"})
     table = table.rename(columns={folds.parameters[1]: "value"})
-    artefact = (table["amplitude"] < SMALL) & ~table["point"].isin(["", "GH"])
-    frame = table[~artefact][["value", "v", "amplitude", "point"]]
+    frame = table[["value", "v", "amplitude", "point"]]
     return frame.assign(curve="LPC", part="LPC", flc=np.nan)
-
-
-def special(s: FoldScan) -> tuple[SpecialPoint, ...]:
-    """Special points of the fold curve, but for what is found on cycles of hardly any size."""
-    if s.folds is None:
-        return ()
-    return tuple(
-        point for point in s.folds.special
-        if point.kind == "GH" or point.solution.measure("max y") >= SMALL
-    )  # fmt: skip
 
 
 def gh_frame(scans: Sequence[FoldScan]) -> pd.DataFrame:
@@ -73,7 +62,7 @@ def _ends(s: FoldScan) -> dict[str, object]:
     if s.folds is None:
         return {**s.labels, "words": s.words}
     (low, low_words), (high, high_words) = ends(s.folds)
-    points = [f"{point.kind} at {point.values[1]:.6g}" for point in special(s)]
+    points = [f"{point.kind} at {point.values[1]:.6g}" for point in s.folds.special]
     found = f"; special points: {', '.join(points)}" if points else ""
     return {
         **s.labels,

@@ -7,6 +7,7 @@ import pytest
 
 from tests.exact_systems import TwistedBand, adaptive_control, bautin, cusp_of_cycles
 from tests.systems import TOY_GH, TOY_HOPF, TOY_LPC, toy_wheelset
+from wheelset.bifurcation.curves.branch import Ending
 from wheelset.bifurcation.curves.continuation import both_ways, follow
 from wheelset.bifurcation.cycles.critical_start import (
     lpc_from_cycle,
@@ -72,6 +73,18 @@ def test_the_fold_curve_ends_in_the_generalised_hopf_point():
     assert end.coefficients["SLC"] == pytest.approx(bautin().slc, rel=1e-8)
 
 
+def test_a_curve_that_stops_beside_a_generalised_hopf_point_ends_in_it_whatever_stopped_it():
+    system = bautin(b2=0.5).system
+    fold = fold_of(system, "b1", 0.01, True, window={"b1": (-1.0, 0.5)})
+    start = lpc_from_cycle(system, fold.solution, ("b1", "b2"), (1.0, 1.0))
+    curve = follow(start.problem, start.u, direction=-start.tangent, steps=150)
+    stuck = dataclasses.replace(curve, ended=Ending("least step", "no convergence"))
+    found = with_gh_ends(system, stuck)
+    assert "generalised Hopf" in found.ended.words and len(found.of_kind("GH")) == 1
+    far = dataclasses.replace(stuck, points=curve.points[:3])
+    assert with_gh_ends(system, far).ended.words == "no convergence"
+
+
 def test_a_cusp_of_cycles_is_located():
     fold = cusp_of_cycles().at_fold(0.6)
     beside = dataclasses.replace(fold, b1=fold.b1 - 0.02)
@@ -98,6 +111,7 @@ def test_the_toy_wheelsets_curve_from_its_generalised_hopf_point_meets_the_one_f
     from_gh = walked(lpc_from_gh(system, gh, (50.0, 100.0)), {"a3": (-1.0, 100.0)}, 400)
     v, period, _ = TOY_LPC[100.0]
     end = from_gh.points[-1]
+    assert not from_gh.special  # no cusp where the numerator of b is rounding
     assert end.values == pytest.approx([v, 100.0], rel=1e-9)
     assert end.solution.period == pytest.approx(period, rel=1e-9)
     system = toy_wheelset(50.0)

@@ -48,9 +48,16 @@ _WORDS = {
 }
 
 
+#: Size of a cycle, in the norm of the state's scales, below which its curve of folds is as good as
+#: at a generalised Hopf point: b's numerator vanishes there with the cube of the size.
+SMALL = 0.1
+
+
 def finding(curve: CriticalCurve, test: str, point: Point) -> Finding:
     """Name a located zero."""
     kind, words = _WORDS[curve.flip, test]
+    if test == "cusp" and curve.cycles.size(point.u) < SMALL:
+        return Finding("", "beside a generalised Hopf point, where b is rounding", {}, True)
     if test == "torus" and not _complex_pair(point):
         return Finding("", "two real multipliers with product one: not a bifurcation", {}, True)
     if curve.space.half and "LPPD" in kind:

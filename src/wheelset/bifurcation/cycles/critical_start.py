@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from wheelset.bifurcation.curves.branch import Branch, BranchPoint, SpecialPoint
+from wheelset.bifurcation.curves.branch import Branch, BranchPoint, Ending, SpecialPoint
 from wheelset.bifurcation.cycles.critical_curve import GH_END, CriticalCurve
+from wheelset.bifurcation.cycles.critical_points import SMALL
 from wheelset.bifurcation.cycles.cycle import Cycle
 from wheelset.bifurcation.cycles.cycle_curve import MESHING, Anchor, CycleCurve, Meshing
 from wheelset.bifurcation.cycles.cycle_start import (
@@ -143,14 +144,26 @@ def _coefficient(system: System, gh: GHPoint, value: float) -> float:
 def with_gh_ends(system: System, curve: Branch) -> Branch:
     """A curve of folds with the generalised Hopf points in which it ends, computed as such.
 
-    The curve itself stops a little before them, where its equations lose their regularity.
+    The curve itself stops a little before them, where its equations lose their regularity and
+    Newton's method may not converge either.
     """
     ends = {0: curve.began, len(curve) - 1: curve.ended}
-    found = [
-        _gh_end(system, curve, index) for index, ending in ends.items() if ending.words == GH_END
-    ]
-    special = sorted((*curve.special, *found), key=lambda point: point.index)
-    return replace(curve, special=tuple(special))
+    found = {
+        index: _gh_end(system, curve, index)
+        for index, ending in ends.items()
+        if ending.words == GH_END or _size(system, curve.points[index].solution) < SMALL
+    }
+    special = sorted((*curve.special, *found.values()), key=lambda point: point.index)
+    began, ended = (
+        Ending("problem", GH_END) if index in found else ending for index, ending in ends.items()
+    )
+    return replace(curve, special=tuple(special), began=began, ended=ended)
+
+
+def _size(system: System, cycle: Cycle) -> float:
+    """Root mean square of u - mean, in the norm of the state's scales."""
+    rms = np.array([cycle.measure(f"rms {name}") for name in cycle.state_names])
+    return float(np.linalg.norm(rms / system.state_scales))
 
 
 def _gh_end(system: System, curve: Branch, index: int) -> SpecialPoint:

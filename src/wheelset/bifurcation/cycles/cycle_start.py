@@ -20,6 +20,7 @@ from wheelset.bifurcation.cycles.symmetry import has_symmetry, require_symmetry
 from wheelset.bifurcation.equilibria.hopf import HopfPoint
 from wheelset.bifurcation.equilibria.lyapunov import critical_pair
 from wheelset.bifurcation.integration.trajectory import Trajectory
+from wheelset.bifurcation.outcomes import NumericalOutcome
 from wheelset.bifurcation.system import System
 
 Array = NDArray[np.float64]
@@ -297,7 +298,8 @@ def cycle_from_flip(
     symmetric family (the other of the pair is its mirror image).
 
     The part computed is run through twice, the mode changing sign in between. size: distance of the
-    first cycle from the old one, relative to 1 + its own norm.
+    first cycle from the old one, relative to 1 + its own norm; a tenth of it and a hundredth where
+    Newton's method does not get there, as beside a singularity of the field.
     """
     curve, u = known(system, cycle, (parameter,), (width,), mesh)
     space, orbit = curve.space, curve.space.split(u)
@@ -308,7 +310,13 @@ def cycle_from_flip(
     period = orbit.period if space.half else 2 * orbit.period
     twice = double.join(*_twice(orbit.mesh_values, orbit.stages, space.signs), period, orbit.free)
     away = double.join(*_twice(found.x, found.v, -space.signs), 0.0, np.zeros(1))
-    return _beside(curve_at(double, twice, (width,), mesh), twice, away, size)
+    doubled = curve_at(double, twice, (width,), mesh)
+    for part in (1.0, 0.1, 0.01):
+        try:
+            return _beside(doubled, twice, away, part * size)
+        except NumericalOutcome as outcome:
+            failure = outcome
+    raise failure
 
 
 def _twice(x: Array, X: Array, signs: Array) -> tuple[Array, Array]:
