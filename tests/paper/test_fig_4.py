@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from tests.paper.pictures import same_picture
+from wheelset.plotting.flange import force_law_panels
 from wheelset.published.figures import PANELS
 from wheelset.studies import flange_claims, flange_models
 
@@ -52,3 +54,8 @@ def test_reciprocal_ends_at_its_poles():
     ends = flange_models.domains(P).set_index("law").loc["reciprocal"]
     assert (ends["low"], ends["high"]) == (-0.0112, 0.0112)
     assert FORCES[FORCES["law"] == "reciprocal"]["y"].abs().max() < 0.0112
+
+
+def test_the_figure_looks_as_it_did(tmp_path):
+    clearance = P.load(P.vehicle_case_1).values["eta"]
+    same_picture("fig_4", force_law_panels(FORCES, flange_models.domains(P), clearance), tmp_path)

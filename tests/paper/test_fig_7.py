@@ -9,6 +9,8 @@ import pytest
 
 from tests.paper.arrays import regress
 from tests.paper.judging import judged
+from tests.paper.pictures import same_picture
+from wheelset.plotting.section_curves import panel_grid, printed_speeds
 from wheelset.published.figures import panel
 from wheelset.published.items import items_of
 from wheelset.studies import hopf_claims, hopf_curves
@@ -49,6 +51,11 @@ def test_panel_is_as_the_paper_says(item, vehicle):
 def test_windows_are_the_papers(scan):
     axis = panel(7, scan.panel).x
     assert (axis.label, axis.low, axis.high) == (scan.parameter, *scan.window)
+
+
+def test_the_figure_looks_as_it_did(tmp_path):
+    curves = hopf_curves.curve_frame(scans())
+    same_picture("fig_7", panel_grid(7, curves, printed_speeds(7), (P.vehicle,)), tmp_path)
 
 
 def test_curves_are_as_stored():

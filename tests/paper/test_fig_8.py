@@ -9,6 +9,8 @@ import pytest
 
 from tests.paper.arrays import regress
 from tests.paper.judging import judged
+from tests.paper.pictures import same_picture
+from wheelset.plotting.section_curves import panel_grid, printed_speeds
 from wheelset.published.figures import panel
 from wheelset.published.items import items_of
 from wheelset.published.numbers import GENERALIZED_HOPF
@@ -46,6 +48,11 @@ def test_panel_is_as_the_paper_says(item, vehicle):
     sentences = claims()[claims()["item"] == item.item]
     assert len(sentences) > 0
     assert sentences["tolerated"].all()
+
+
+def test_the_figure_looks_as_it_did(tmp_path):
+    curves = lpc_rows.curve_frame(scans())
+    same_picture("fig_8", panel_grid(8, curves, printed_speeds(8), (P.vehicle,)), tmp_path)
 
 
 @pytest.mark.parametrize(("item", "vehicle"), judged(SENTENCES, lambda _: P.vehicle))
