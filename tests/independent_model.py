@@ -41,13 +41,15 @@ def polynomial(q, letter, s, y):
 def contact(s, dr, gamma, rho, motion, q, o, sigma):
     psi, yd, psid, v = motion
     cosine, sine = mp.cos(gamma), mp.sin(gamma)
-    A, B = 1 / (2 * (q["r0"] + dr)), rho / 2
+    A, B = 1 / (2 * (q["r0"] + dr)), rho / (2 if o["transverse_curvature"] == "half" else 1)
     n063 = mp.mpf("0.63")
     k = (A / B) ** n063
-    normal = q["p0"] / cosine
+    lifting = cosine if o["normal_force"] == "vertical" else mp.mpf(1)
+    normal = q["p0"] / lifting
     hertz = mp.mpf(3) / 2 * (1 - q["nu"] ** 2) / q["E"] / (A + B)
     bracket = (1 + A / B) / (2 * mp.sqrt(A / B))
-    ab = (hertz * bracket**n063 * normal) ** (mp.mpf(2) / 3)
+    under, beside = (bracket**n063, 1) if o["shape_exponent"] == "inside" else (1, bracket**n063)
+    ab = (hertz * under * normal) ** (mp.mpf(2) / 3) * beside
     G = q["E"] / (2 * (1 + q["nu"]))
     c11 = mp.mpf("3.2893") + mp.mpf("0.9750") / k - mp.mpf("0.0120") / k**2
     c22 = mp.mpf("2.4014") + mp.mpf("1.3179") / k - mp.mpf("0.0200") / k**2
@@ -62,12 +64,13 @@ def contact(s, dr, gamma, rho, motion, q, o, sigma):
     xi_x = -q["radius_offset"] - dr / q["r0"] - s * q["b"] * psid / v
     xi_y = (yd / v - psi) * (cosine if o["lateral_creepage_cosine"] == "included" else 1)
     xi_s = -sigma * s * sine / q["r0"] * cosine ** q["spin_cosine_exponent"] + psid / v * cosine
-    fx, fy, mz = -f11 * xi_x, -f22 * xi_y - f23 * xi_s, f23 * xi_y - f33 * xi_s
+    moment = f23 * xi_y if o["lateral_spin_moment"] == "plus" else -f23 * xi_y
+    fx, fy, mz = -f11 * xi_x, -f22 * xi_y - f23 * xi_s, moment - f33 * xi_s
     if o["creep_law"] == "shen_hedrick_elkins":
         u = mp.sqrt(fx**2 + fy**2) / (q["mu"] * normal)
         factor = 1 - u / 3 + u**2 / 27 if u < 3 else 1 / u
         fx, fy, mz = factor * fx, factor * fy, factor * mz
-    gravity = -sigma * s * q["p0"] * mp.tan(gamma)
+    gravity = -sigma * s * q["p0"] * sine / lifting
     lateral = fx * psi + fy * cosine + gravity
     yaw = -s * q["b"] * fx - s * q["b"] * psi * lateral + mz * cosine
     return {"lateral": lateral, "yaw": yaw, "fx": fx, "fy": fy, "normal": normal}

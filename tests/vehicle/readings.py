@@ -9,8 +9,12 @@ from wheelset.vehicle.options import ModelOptions
 OPTIONS = {
     "contact_angle_sign": "reversed",
     "lateral_creepage_cosine": "included",
+    "normal_force": "vertical",
+    "shape_exponent": "inside",
+    "transverse_curvature": "half",
     "creep_law": "linear",
     "spin_moment": "none",
+    "lateral_spin_moment": "plus",
     "flange_law": "none",
     "flange_wheels": 1,
 }

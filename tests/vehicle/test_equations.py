@@ -35,6 +35,12 @@ READINGS = {
         {"lateral_creepage_cosine": "omitted", "flange_law": "quintic", "flange_wheels": 2},
         {"spin_cosine_exponent": -0.473896},
     ),
+    "constant normal force, full curvature": (
+        {"normal_force": "constant", "transverse_curvature": "full"}, {},
+    ),
+    "shape factor outside, spin moment turned round": (
+        {"shape_exponent": "outside", "lateral_spin_moment": "minus", "spin_moment": "fit"}, {},
+    ),
     "saturated, spin moment, reciprocal": (
         {"creep_law": "shen_hedrick_elkins", "spin_moment": "fit", "flange_law": "reciprocal"},
         {"mu": 0.3},

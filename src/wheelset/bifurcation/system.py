@@ -240,9 +240,15 @@ class System:
     def forms(self, x: ArrayLike, p: Array | None, *directions: ArrayLike) -> NDArray[Any]:
         """The form at many points x (points, n) at once, shape (points, n).
 
-        Directions as in ``form``, one for all points or one row a point.
+        Parameters and directions as in ``form``, one for all points or one row a point: p has
+        shape (m,) or (points, m), the latter for a smooth field only.
         """
         points, vector = self._points(np.asarray(x, dtype=np.float64)), self._vector(p)
+        if vector.ndim == 2 and (len(vector) != len(points) or self.field.switch is not None):
+            raise ValueError(
+                f"{len(vector)} rows of parameters for {len(points)} points; give one row, or for "
+                "a smooth field one a point"
+            )
         rows = forms.packed(self.tape, len(points), [np.asarray(v) for v in directions])
         if self.field.switch is None:
             return self._forms(points, vector, rows)

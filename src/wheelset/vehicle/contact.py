@@ -61,32 +61,58 @@ LEAST_SATURATION = 1e-20
 def wheel_equations(options: ModelOptions) -> tuple[Equation, ...]:
     """All equations of a wheel of side s, in the order of evaluation."""
     return (
-        *_contact_equations(),
+        *_contact_equations(options),
         *_creep_coefficients(options),
         *_creepages(options),
-        *_linear_forces(),
+        *_linear_forces(options),
         *_saturation_equations(options),
         *_track_equations(),
     )
 
 
-def _contact_equations() -> tuple[Equation, ...]:
+def _contact_equations(options: ModelOptions) -> tuple[Equation, ...]:
     """Eqs. (5)-(7): Hertz. The ellipse enters through its area a b and its ratio k = b/a."""
-    hertz = (1 - p.nu**2) / p.E * N * shape**_EXPONENT / (A + B) * sp.Rational(3, 2)
     return (
         Equation(r, p.r0 + dr, "1", "m", "rolling radius"),
         Equation(gamma, delta + s * phi, "7", "rad", "slope of the contact plane to the track"),
         Equation(cos_gamma, sp.cos(gamma), "7", "1", "its cosine"),
         Equation(sin_gamma, sp.sin(gamma), "8", "1", "its sine"),
+        *_curvature_equations(options),
+        Equation(N, p.p0 / _lifting(options), "7", "N", "normal force"),
+        *_ellipse_equations(options),
+    )
+
+
+def _lifting(options: ModelOptions) -> sp.Expr:
+    """What p0 is divided by to be the normal force: its vertical part, or 1."""
+    return {"vertical": cos_gamma, "constant": sp.Integer(1)}[options.normal_force]
+
+
+def _curvature_equations(options: ModelOptions) -> tuple[Equation, ...]:
+    """Eq. (5), and the axis ratio of Eq. (6)."""
+    across = {"half": rho / 2, "full": rho}[options.transverse_curvature]
+    words = {"half": "half the curvature across the track", "full": "curvature across the track"}
+    return (
         Equation(A, 1 / (2 * r), "5", "1/m", "half the curvature along the track"),
-        Equation(B, rho / 2, "5", "1/m", "half the curvature across the track"),
+        Equation(B, across, "5", "1/m", words[options.transverse_curvature]),
         Equation(ratio, (A / B) ** _EXPONENT, "6", "1", "axis ratio of the contact ellipse, b/a"),
-        Equation(N, p.p0 / cos_gamma, "7", "N", "normal force"),
-        Equation(
-            shape, (1 + A / B) / (2 * sp.sqrt(A / B)), "6", "1", "shape factor of the ellipse"
-        ),
+    )
+
+
+def _ellipse_equations(options: ModelOptions) -> tuple[Equation, ...]:
+    """Eq. (6): the ellipse's size. The printed shape factor stands under the power 2/3."""
+    factor = shape**_EXPONENT
+    under, beside = {
+        "inside": (factor, sp.Integer(1)),
+        "outside": (sp.Integer(1), factor),
+    }[options.shape_exponent]
+    hertz = (1 - p.nu**2) / p.E * N * under / (A + B) * sp.Rational(3, 2)
+    area = cube ** sp.Rational(2, 3) * beside
+    form = (1 + A / B) / (2 * sp.sqrt(A / B))
+    return (
+        Equation(shape, form, "6", "1", "shape factor of the ellipse"),
         Equation(cube, hertz, "6", "m3", "cube of the mean semi-axis, (a b)^(3/2)"),
-        Equation(patch, cube ** sp.Rational(2, 3), "6", "m2", "product of the semi-axes, a b"),
+        Equation(patch, area, "6", "m2", "product of the semi-axes, a b"),
     )
 
 
@@ -121,7 +147,7 @@ def _creepages(options: ModelOptions) -> tuple[Equation, ...]:
     """Eqs. (8), (9): the lateral part of the normal force, and the creepages."""
     angle_sign = {"physical": 1, "reversed": -1}[options.contact_angle_sign]
     cosine = {"included": cos_gamma, "omitted": sp.Integer(1)}[options.lateral_creepage_cosine]
-    gravity = -angle_sign * s * p.p0 * sin_gamma / cos_gamma
+    gravity = -angle_sign * s * p.p0 * sin_gamma / _lifting(options)
     longitudinal = -p.radius_offset - dr / p.r0 - s * p.b * psid / v
     camber = -angle_sign * s * sin_gamma * cos_gamma**p.spin_cosine_exponent / p.r0
     return (
@@ -132,12 +158,13 @@ def _creepages(options: ModelOptions) -> tuple[Equation, ...]:
     )
 
 
-def _linear_forces() -> tuple[Equation, ...]:
+def _linear_forces(options: ModelOptions) -> tuple[Equation, ...]:
     """Eq. (10): Kalker's linear law."""
+    sign = {"plus": 1, "minus": -1}[options.lateral_spin_moment]
     return (
         Equation(Kx, -f11 * xi_x, "10", "N", "longitudinal creep force, linear"),
         Equation(Ky, -f22 * xi_y - f23 * xi_s, "10", "N", "lateral creep force, linear"),
-        Equation(Kz, f23 * xi_y - f33 * xi_s, "10", "N m", "creep moment, linear"),
+        Equation(Kz, sign * f23 * xi_y - f33 * xi_s, "10", "N m", "creep moment, linear"),
     )
 
 

@@ -12,8 +12,12 @@ from pydantic import BaseModel, ConfigDict, Field
 
 ContactAngleSign = Literal["physical", "reversed"]
 LateralCreepageCosine = Literal["included", "omitted"]
+NormalForce = Literal["vertical", "constant"]
+ShapeExponent = Literal["inside", "outside"]
+TransverseCurvature = Literal["half", "full"]
 CreepLaw = Literal["linear", "shen_hedrick_elkins"]
 SpinMoment = Literal["none", "fit"]
+LateralSpinMoment = Literal["plus", "minus"]
 FlangeLaw = Literal["none", "piecewise_linear", "quintic", "exponential", "reciprocal"]
 FlangeWheels = Literal[1, 2]
 
@@ -38,6 +42,28 @@ class ModelOptions(BaseModel):
             "omitted: xi_y = y'/v - psi."
         ),
     )
+    normal_force: NormalForce = Field(
+        default="vertical",
+        description=(
+            "What the wheel load p0 is. vertical: the vertical part of the contact force, "
+            "N = p0 / cos(g), Fyn of size p0 tan(g), Eqs. (7) and (8). constant: the normal force "
+            "itself, N = p0, Fyn of size p0 sin(g)."
+        ),
+    )
+    shape_exponent: ShapeExponent = Field(
+        default="inside",
+        description=(
+            "Where the factor [(1 + A/B) / (2 sqrt(A/B))]^0.63 of Eq. (6) stands. inside: under "
+            "the power 2/3, as printed. outside: beside it."
+        ),
+    )
+    transverse_curvature: TransverseCurvature = Field(
+        default="half",
+        description=(
+            "B of Eq. (5) from the sum of curvatures rho. half: B = rho / 2, as printed. "
+            "full: B = rho."
+        ),
+    )
     creep_law: CreepLaw = Field(
         default="linear",
         description=(
@@ -50,6 +76,13 @@ class ModelOptions(BaseModel):
         description=(
             "Kalker's C33 in Eq. (10), which Eq. (11) leaves out. none: C33 = 0. "
             "fit: C33 = 0.3501 + 0.8051 k + 0.0596/(1 + k), k = eb/ea."
+        ),
+    )
+    lateral_spin_moment: LateralSpinMoment = Field(
+        default="plus",
+        description=(
+            "Sign of the lateral creepage's moment in Eq. (10). plus: Mz = f23 xi_y - f33 xi_s, as "
+            "printed. minus: Mz = -f23 xi_y - f33 xi_s."
         ),
     )
     flange_law: FlangeLaw = Field(

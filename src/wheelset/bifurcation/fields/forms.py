@@ -44,8 +44,9 @@ def forms(
 ) -> Numbers:
     """The form at every point, shape (points, n), of the type of the packed directions.
 
-    points (points, n), states called ``names``; sample: Taylor coefficients of the sampled
-    functions. Raises DomainLeft or NotFinite for the first point without such a derivative.
+    points (points, n), states called ``names``; p (m,), or one row a point; sample: Taylor
+    coefficients of the sampled functions. Raises DomainLeft or NotFinite for the first point
+    without such a derivative.
     """
     order = directions.shape[1]
     bounds = [(slot, c.least) for slot, c in tape.conditions if c.order <= order]
@@ -55,7 +56,7 @@ def forms(
         tape.packed,
         tape.fixed,
         np.array(points),  # copies: machine code is made for arrays that may be written
-        np.array(p),
+        np.array(p, ndmin=2),
         directions,
         sample(points, max(order, 1)),
         (np.array([b[0] for b in bounds], np.int64), np.array([b[1] for b in bounds], float)),

@@ -150,17 +150,19 @@ def over_points(
     """D^k f(x, p)[v_1, ..., v_k] at every point; the number of points done.
 
     packed: code (ops, 4) and constants (ops,) of a tape; fixed (ops,): operations of parameters
-    alone. points (points, n), p (m,), directions (points, k, n or n + m), real or complex,
-    sampled (points, functions, k + 1). bounds: slots and what they have to exceed.
+    alone. points (points, n), p (points, m) or one row for all, (1, m), directions
+    (points, k, n or n + m), real or complex, sampled (points, functions, k + 1). bounds: slots and
+    what they have to exceed.
     work: still, all true, known, all false, and taylor of ``_propagate``. slots
     (n + m + ops, 2^k), zero. out (points, n): written, from the slots ``outputs``.
     A point outside a bound or not finite ends it, and its coefficients stay in ``slots``.
     """
     (code, constants), (still, known, taylor) = packed, work
     n, (order, width) = points.shape[1], directions.shape[1:]
-    for j in range(len(p)):
-        slots[n + j, 0] = p[j]
+    each = p.shape[0] - 1  # 0 where all points share their parameters
     for i in range(points.shape[0]):
+        for j in range(p.shape[1]):
+            slots[n + j, 0] = p[min(i, each), j]
         for j in range(n):
             slots[j, 0] = points[i, j]
         for j in range(width):
@@ -173,7 +175,7 @@ def over_points(
             return i
         for row in range(n):
             out[i, row] = slots[outputs[row], slots.shape[1] - 1]
-        if i == 0 and width == n:
+        if i == 0 and width == n and each == 0:
             for j in range(len(fixed)):
                 known[j] = fixed[j]
     return points.shape[0]
