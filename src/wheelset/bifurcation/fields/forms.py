@@ -50,14 +50,15 @@ def forms(
     """
     order = directions.shape[1]
     bounds = [(slot, c.least) for slot, c in tape.conditions if c.order <= order]
-    slots = np.zeros((tape.n + tape.m + len(tape.operations), 2**order), directions.dtype)
-    out = np.empty(points.shape, directions.dtype)
+    # complex for real directions, too: machine code is made for one type of numbers only
+    slots = np.zeros((tape.n + tape.m + len(tape.operations), 2**order), np.complex128)
+    out = np.empty(points.shape, np.complex128)
     done = multidual.over_points(
         tape.packed,
         tape.fixed,
         np.array(points),  # copies: machine code is made for arrays that may be written
         np.array(p, ndmin=2),
-        directions,
+        directions.astype(np.complex128),
         sample(points, max(order, 1)),
         (np.array([b[0] for b in bounds], np.int64), np.array([b[1] for b in bounds], float)),
         tape.output_slots,
@@ -69,4 +70,4 @@ def forms(
         domain.check_orders(tape, slots[:, 0].real, order, points[done], names)
         bad = ~np.asarray(np.isfinite(slots).all(axis=1))
         raise domain.not_finite(tape, bad, points[done], names)
-    return out
+    return out if np.iscomplexobj(directions) else out.real.copy()
