@@ -31,8 +31,8 @@ def filed():
 
 
 @cache
-def curved():
-    return families(flange_readings.CURVED)
+def constant():
+    return families(flange_readings.CONSTANT)
 
 
 @cache
@@ -42,7 +42,7 @@ def curves():
 
 @cache
 def verdicts():
-    return flange_cycle_verdicts.verdict_frame(item_frame(ITEMS), filed(), curved())
+    return flange_cycle_verdicts.verdict_frame(item_frame(ITEMS), filed(), constant())
 
 
 def panel_of(case, law):

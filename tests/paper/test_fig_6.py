@@ -82,7 +82,7 @@ def test_axes_are_the_papers_and_every_curve_is_followed_through_its_panel(case)
 @pytest.mark.parametrize("case", P.cases)
 def test_hunting_under_the_polynomial_is_what_integration_settles_on(case):
     """Fig. 5's speed; the motion is integrated to 1e-9 and settles to 1e-6 of its amplitude."""
-    (family,) = panel_of(case, "quintic")
+    family = panel_of(case, "quintic")[0]
     largest = max(at_speed(family, 40.0), key=lambda cycle: cycle.extremes("y")[1])
     system = family.system.with_values(v=40.0)
     motion = integrate(system, [0.01, 0.0, 0.0, 0.0], 60.0, stop_when_settled=True)

@@ -160,4 +160,4 @@ def _legend(figure: Figure, ax: Axes, curves: pd.DataFrame) -> None:
     for letters in ("LPC", "BPC", "PD"):
         ax.plot([], [], MARKS[letters], mfc="white", mec=INK, ms=6, label=letters)
     ax.plot([], [], "o", mfc="none", mec=PAPER, ms=11, linestyle="none", label="printed")
-    figure.legend(*ax.get_legend_handles_labels(), loc="outside upper center", ncols=5)
+    figure.legend(*ax.get_legend_handles_labels(), loc="outside upper center", ncols=4)

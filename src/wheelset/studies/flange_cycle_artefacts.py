@@ -139,7 +139,12 @@ def _breaking(cycles: Cycles) -> str:
     branch = cycles.branches[0]
     breaks = branch.of_kind("BPC")
     if not breaks:
-        return "Symmetry breaks nowhere on the branch."
+        last = branch.points[-1]
+        reach = max(last.solution.extremes("y")) * 1e3
+        return (
+            "Symmetry breaks nowhere on the branch, which was followed to "
+            f"{float(last.values[0]):.2f} m/s, |y| = {reach:.2f} mm."
+        )
     first = breaks[0]
     reach = max(first.solution.extremes("y")) * 1e3
     return f"Symmetry does break at {speed_of(first):.2f} m/s, |y| = {reach:.2f} mm."

@@ -40,8 +40,9 @@ QUICK_MESHES: tuple[tuple[int, int], ...] = ((20, 0), (40, 3))
 #: Case and law of the branches that are followed again.
 REPEATED = ((1, "reciprocal"), (2, "exponential"), (2, "reciprocal"))
 
-#: Speeds followed, m/s, and steps of a symmetric and of an asymmetric branch.
-WINDOW, STEPS = (45.0, 60.0), (200, 25)
+#: Speeds followed, m/s, as far as refined branches go to be compared with; steps of a symmetric and
+#: of an asymmetric branch.
+WINDOW, STEPS = (45.0, 59.0), (200, 25)
 
 #: Steps below this are not tried: nothing is to be learnt so close to a singularity.
 CONTROL = StepControl(least=1e-3)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -54,15 +54,23 @@ def _rows(families: tuple[Family, ...]) -> Iterator[dict[str, Any]]:
 
 
 def _speeds(families: tuple[Family, ...]) -> list[float]:
-    """Before the first breaking, between it and the first doubling, between that and the next."""
+    """Before the first breaking, between it and the first doubling, between that and the next: of
+    the doubled cycles or, where the doubling is undone before, of the asymmetric ones.
+    """
     marks = [_first(f.branch, kind) for f, kind in zip(families, ("BPC", "PD", "PD"), strict=False)]
+    if len(families) > 1 and marks[-1] is None:
+        marks[2:] = _all(families[1].branch, "PD")[1:2]
     found = [float(mark.values[0]) for mark in marks if mark is not None]
     between = [(a + b) / 2 for a, b in pairwise(found)]
     return [found[0] - BEFORE, *between]
 
 
 def _first(branch: Branch | None, kind: str) -> SpecialPoint | None:
-    return next(iter(branch.of_kind(kind)), None) if branch is not None else None
+    return next(iter(_all(branch, kind)), None)
+
+
+def _all(branch: Branch | None, kind: str) -> Sequence[SpecialPoint]:
+    return branch.of_kind(kind) if branch is not None else ()
 
 
 def _settled(outcome: object, period: float) -> dict[str, float]:

@@ -1,8 +1,8 @@
 """Section 3's limit cycles: Fig. 6, two cases under four ways to write the flange force.
 
 Source: Guo, Shi, Luo, Zeng, Nonlinear Dynamics 104 (2021) 989-1005, section 3, Fig. 6. Two readings
-of "nonlinear contact parameters neglected" are computed: the packaged cases as they are, and the
-same with the nonlinear curvature terms put back.
+of "nonlinear contact parameters neglected" are computed: the packaged cases as they are, which keep
+the terms of the curvatures, and the same without them.
 """
 
 from __future__ import annotations
@@ -59,9 +59,9 @@ class Parameters(WindowParameters):
         default="guo2021_case2",
         description="Vehicle of case 2 (subcritical): packaged name or path of a file.",
     )
-    vehicle_curvatures: VehicleName = Field(
+    vehicle_in_full: VehicleName = Field(
         default="guo2021",
-        description="Vehicle whose nonlinear curvature terms the second reading takes.",
+        description="Vehicle whose contact-angle terms are put back to see what they change.",
     )
     vehicle_physical: VehicleName = Field(
         default="guo2021_physical", description="Vehicle of the physically consistent reading."

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from scipy.optimize import newton
 
@@ -10,17 +10,20 @@ from wheelset.bifurcation.equilibria.hopf import HopfPoint
 from wheelset.bifurcation.outcomes import NoConvergence
 from wheelset.studies.flange_cycles import AS_FILED, Family, Parameters, families_of, hopf_of
 
-#: The second reading: only the constant of the sum of curvatures is not enough, its terms act.
-CURVED = "curvatures kept"
-
-#: Coefficients of the sum of curvatures beyond its constant.
-CURVATURES = ("e1", "e3", "f1", "f3")
+#: The second reading: the terms of the sum of curvatures are neglected as well.
+CONSTANT = "curvatures constant"
 
 #: What section 3 neglects, as the packaged cases read it.
-NEGLECTED = tuple(f"{name}=0" for name in ("c1", "c3", *CURVATURES))
+NEGLECTED = ("c1=0", "c3=0")
 
-#: The physically consistent reading, without and with what section 3 neglects.
-PHYSICAL, PHYSICAL_IN_FULL = "physical", "physical, nothing neglected"
+#: The terms of the sum of curvatures beyond its constant, left out.
+CURVATURES = ("e1=0", "e3=0", "f1=0", "f3=0")
+
+#: The physically consistent vehicle with what the packaged cases neglect, with the curvatures
+#: constant as well, with nothing neglected.
+PHYSICAL = "physical"
+PHYSICAL_CONSTANT = "physical, curvatures constant"
+PHYSICAL_IN_FULL = "physical, nothing neglected"
 
 #: Without flange force: what the two cases are told apart by.
 PLAIN = "flange_law=none"
@@ -30,26 +33,24 @@ def readings(p: Parameters) -> dict[str, dict[int, tuple[str, ...]]]:
     """Changes to the cases by reading and case."""
     return {
         AS_FILED: dict.fromkeys(p.cases, ()),
-        CURVED: {case: curved_rows(p, case) for case in p.cases},
+        CONSTANT: {case: chosen_again(p, case, CURVATURES) for case in p.cases},
     }
 
 
-def curved_rows(p: Parameters, case: int) -> tuple[str, ...]:
-    """Changes that put the curvature terms back into a case, with a1 and a3 chosen again so that
-    Hopf speed and first Lyapunov coefficient without flange force stay the case's own.
+def chosen_again(p: Parameters, case: int, changes: Sequence[str]) -> tuple[str, ...]:
+    """Changes to a case, with a1 and a3 chosen again so that Hopf speed and first Lyapunov
+    coefficient without flange force stay the case's own.
     """
-    values = p.load(p.vehicle_curvatures).values
-    kept = tuple(f"{name}={values[name]!r}" for name in CURVATURES)
     own = p.load(p.cases[case], rows=[PLAIN])
     wanted = hopf_of(p, own)
 
     def apart(number: Callable[[HopfPoint], float], *rows: str) -> float:
-        hopf = hopf_of(p, p.load(p.cases[case], rows=[*kept, *rows, PLAIN]))
+        hopf = hopf_of(p, p.load(p.cases[case], rows=[*changes, *rows, PLAIN]))
         return number(hopf) - number(wanted)
 
     a1 = _root("a1", lambda x: apart(_speed, f"a1={x!r}"), own.values["a1"])
     a3 = _root("a3", lambda x: apart(_flc, f"a1={a1!r}", f"a3={x!r}"), own.values["a3"])
-    return (*kept, f"a1={a1!r}", f"a3={a3!r}")
+    return (*changes, f"a1={a1!r}", f"a3={a3!r}")
 
 
 def _root(name: str, function: Callable[[float], float], guess: float) -> float:
@@ -57,7 +58,7 @@ def _root(name: str, function: Callable[[float], float], guess: float) -> float:
     try:
         return float(newton(lambda x: function(float(x)), guess, rtol=1e-10))
     except RuntimeError as cause:
-        raise NoConvergence(f"{name} of a case with the curvature terms: {cause}", ()) from cause
+        raise NoConvergence(f"{name} of a case in another reading: {cause}", ()) from cause
 
 
 def _speed(hopf: HopfPoint) -> float:
@@ -71,15 +72,21 @@ def _flc(hopf: HopfPoint) -> float:
 
 
 def physical_families(p: Parameters) -> tuple[Family, ...]:
-    """Cycles of the physically consistent vehicle under the exponential law, without what section
-    3 neglects and with it; its own a3.
+    """Cycles of the physically consistent vehicle under the exponential law, with what the packaged
+    cases neglect, with more neglected and with nothing; its own a3.
     """
     law = "exponential"
-    neglecting = p.load(p.vehicle_physical, rows=[*NEGLECTED, f"flange_law={law}"])
-    full = p.load(p.vehicle_physical, rows=[f"flange_law={law}"])
-    return (
-        *families_of(p, neglecting, (PHYSICAL, 0, law)),
-        *families_of(p, full, (PHYSICAL_IN_FULL, 0, law)),
+    readings = {
+        PHYSICAL: NEGLECTED,
+        PHYSICAL_CONSTANT: (*NEGLECTED, *CURVATURES),
+        PHYSICAL_IN_FULL: (),
+    }
+    return tuple(
+        family
+        for reading, rows in readings.items()
+        for family in families_of(
+            p, p.load(p.vehicle_physical, rows=[*rows, f"flange_law={law}"]), (reading, 0, law)
+        )
     )
 
 
