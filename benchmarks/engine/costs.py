@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import statistics
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from time import perf_counter
 from typing import Any
@@ -49,34 +49,55 @@ HALF = 20
 FIXED = Meshing(0, None)
 
 
-def milliseconds(call: Callable[[], object], rounds: int = 15, least: float = 0.02) -> list[float]:
-    """Of one call, round by round; a round has enough of them to last ``least`` seconds."""
-    call()
-    start = perf_counter()
-    call()
-    inner = max(1, round(least / (perf_counter() - start)))
-    times = []
-    for _ in range(rounds):
-        start = perf_counter()
-        for _ in range(inner):
-            call()
-        times.append(1e3 * (perf_counter() - start) / inner)
+#: Rounds of measurement, and how long one lasts at least, s.
+ROUNDS, LEAST = 15, 0.02
+
+
+def milliseconds(calls: Sequence[Callable[[], object]]) -> list[list[float]]:
+    """Of one call each, round by round, all in turns, so that a machine whose speed drifts drifts
+    for all.
+    """
+    counts = [_enough(call) for call in calls]
+    times: list[list[float]] = [[] for _ in calls]
+    for _ in range(ROUNDS):
+        for call, count, found in zip(calls, counts, times, strict=True):
+            found.append(1e3 * _seconds(call, count) / count)
     return times
 
 
-def newton(start: Start) -> dict[str, float]:
-    """Linearisation (f, Jacobian, condensation) and solution of one Newton step, in ms: medians,
-    and the least of both together.
+def _enough(call: Callable[[], object]) -> int:
+    """How many calls last long enough."""
+    _seconds(call, 1)
+    return max(1, round(LEAST / _seconds(call, 1)))
+
+
+def _seconds(call: Callable[[], object], count: int) -> float:
+    start = perf_counter()
+    for _ in range(count):
+        call()
+    return perf_counter() - start
+
+
+def newton(starts: Sequence[Start]) -> list[dict[str, float]]:
+    """Linearisation (f, Jacobian, condensation) and solution of one Newton step each, in ms:
+    medians, and the least of both together.
     """
+    calls = [call for start in starts for call in _parts(start)]
+    times = milliseconds(calls)
+    return [
+        {
+            "linearised": statistics.median(linearised),
+            "solved": statistics.median(solved),
+            "least": min(linearised) + min(solved),
+        }
+        for linearised, solved in zip(times[::2], times[1::2], strict=True)
+    ]
+
+
+def _parts(start: Start) -> tuple[Callable[[], object], Callable[[], object]]:
     problem, u = start.problem, start.u
     row, linearisation = problem.metric * start.tangent, problem.linearised(u)
-    linearised = milliseconds(lambda: problem.linearised(u))
-    solved = milliseconds(lambda: linearisation.newton(row))
-    return {
-        "linearised": statistics.median(linearised),
-        "solved": statistics.median(solved),
-        "least": min(linearised) + min(solved),
-    }
+    return partial(problem.linearised, u), partial(linearisation.newton, row)
 
 
 def against_intervals(case: Case) -> list[dict[str, Any]]:
@@ -85,28 +106,26 @@ def against_intervals(case: Case) -> list[dict[str, Any]]:
     first = case.free[0]
     widths = tuple(case.scales[name] for name in case.free)
     ordinary, fold = done.cycles.points[-1].solution, done.fold.solution
-    rows = []
+    starts: list[Start] = []
     for count in INTERVALS:
-        cycle = on_mesh(ordinary, count, half=False)
-        starts = {
-            "cycle": cycle_from_cycle(case.system, cycle, first, widths[0], FIXED),
-            "fold": lpc_from_cycle(
-                case.system, on_mesh(fold, count, half=False), case.free, widths, FIXED
-            ),
-        }
-        rows += [{"of": name, "intervals": count, **newton(at)} for name, at in starts.items()]
-    return rows
+        cycle, critical = (on_mesh(one, count, half=False) for one in (ordinary, fold))
+        starts += [
+            cycle_from_cycle(case.system, cycle, first, widths[0], FIXED),
+            lpc_from_cycle(case.system, critical, case.free, widths, FIXED),
+        ]
+    names = [{"of": of, "intervals": count} for count in INTERVALS for of in ("cycle", "fold")]
+    return [name | times for name, times in zip(names, newton(starts), strict=True)]
 
 
 def line(rows: list[dict[str, Any]], of: str) -> dict[str, Any]:
     """The straight line through the least costs: ms for nothing, ms an interval, and the greatest
-    relative distance from it; exponent: between the two finest meshes.
+    relative distance from it; exponent: over the three finest meshes.
     """
     chosen = [row for row in rows if row["of"] == of]
     N = np.array([row["intervals"] for row in chosen], dtype=float)
     cost = np.array([row["least"] for row in chosen])
     slope, start = np.polyfit(N, cost, 1, w=1 / cost)
-    exponent = np.log(cost[-1] / cost[-2]) / np.log(N[-1] / N[-2])
+    exponent, _ = np.polyfit(np.log(N[-3:]), np.log(cost[-3:]), 1)
     return {
         "of": of,
         "ms_for_nothing": float(start),
@@ -121,14 +140,14 @@ def against_size() -> list[dict[str, Any]]:
     single = van_der_pol(1.0)
     orbit = integrate(single, [2.0, 0.0], 40.0)
     cycle = solved(cycle_from_orbit(single, "mu", orbit, discretisation=Discretisation(HALF, True)))
-    rows = []
-    for count in COUNTS:
-        how = Discretisation(HALF, True, FIXED)
-        alike = partial(_alike, cycle, count)
-        system = van_der_pol(1.0, count)
-        start = cycle_from_guess(system, "mu", alike, cycle.period, 1.0, how)
-        rows.append({"n": 2 * count, **newton(start)})
-    return rows
+    how = Discretisation(HALF, True, FIXED)
+    starts = [
+        cycle_from_guess(
+            van_der_pol(1.0, count), "mu", partial(_alike, cycle, count), cycle.period, 1.0, how
+        )
+        for count in COUNTS
+    ]
+    return [{"n": 2 * count, **times} for count, times in zip(COUNTS, newton(starts), strict=True)]
 
 
 def _alike(cycle: Cycle, count: int, phases: np.ndarray) -> np.ndarray:

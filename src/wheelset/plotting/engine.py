@@ -105,7 +105,7 @@ def goal_dots(goals: pd.DataFrame) -> Figure:
     heights = goals["goal"].map(names.index)
     ax.plot(goals["wanted"], heights, "|", color=INK, ms=16, mew=2, label="goal")
     for (case, rows), color, mark in zip(
-        goals.groupby("case", sort=False), (OURS, OTHER), "od", strict=False
+        goals.groupby("case", sort=False), (OURS, SKY, OTHER, PURPLE), "odsD", strict=False
     ):
         ax.plot(rows["reached"], rows["goal"].map(names.index), mark, color=color, label=case)
     ax.set(xscale="log", xlabel="AUTO's time over ours (times)")
