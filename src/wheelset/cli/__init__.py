@@ -10,6 +10,7 @@ from typing import Annotated
 import typer
 
 from wheelset.cli.hunting import hopf, simulate, vehicles
+from wheelset.cli.profiles import conicity, profiles
 from wheelset.cli.publishing import book, run
 
 app = typer.Typer(
@@ -18,7 +19,7 @@ app = typer.Typer(
     no_args_is_help=True,
     pretty_exceptions_enable=False,
 )
-for command in (vehicles, hopf, simulate, run, book):
+for command in (vehicles, hopf, simulate, profiles, conicity, run, book):
     app.command()(command)
 
 

@@ -1,0 +1,302 @@
+"""Commands over profiles: ``profiles``, ``conicity``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import asdict, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.console import Console
+
+from wheelset.cli.errors import clear_errors, error_console
+from wheelset.cli.tables import show_json, show_table
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from wheelset.profiles import Contact, Profile, Setup
+    from wheelset.profiles.conicity import ConicityTable
+    from wheelset.profiles.smoothing import Smoothing
+
+#: Half the range of displacements that is searched, m, and the spacing of the search, m.
+REACH, SPACING = 0.010, 5e-5
+
+#: Jumps named one by one.
+MOST_JUMPS = 12
+
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON in SI units instead of tables.")]
+Wheel = Annotated[str, typer.Argument(metavar="WHEEL", help="A packaged name, or a file.")]
+Rail = Annotated[str, typer.Argument(metavar="RAIL", help="A packaged name, or a file.")]
+
+
+def profiles(as_json: AsJson = False) -> None:
+    """List the packaged wheel and rail profiles."""
+    from wheelset.profiles import packaged_profiles
+
+    rows: list[dict[str, Any]] = [
+        {"name": p.name, "kind": p.kind, "from": p.domain[0], "to": p.domain[1], "source": p.source}
+        for p in packaged_profiles()
+    ]
+    if as_json:
+        show_json(rows)
+        return
+    columns = ["name", "kind", "y mm", "source"]
+    shown = [
+        (r["name"], r["kind"], f"{r['from'] * 1e3:.1f} .. {r['to'] * 1e3:.1f}", r["source"])
+        for r in rows
+    ]
+    show_table("Packaged profiles", columns, shown)
+
+
+def conicity(
+    wheel: Wheel,
+    rail: Rail,
+    gauge: Annotated[float, typer.Option(help="Track gauge, mm.")] = 1435.0,
+    cant: Annotated[str, typer.Option(help="Rail inclination: 1:40, 0.025 or 0.")] = "1:40",
+    back_to_back: Annotated[
+        float, typer.Option(help="Distance of the wheels' back faces, mm.")
+    ] = 1353.0,
+    r0: Annotated[float, typer.Option(help="Nominal rolling radius, mm.")] = 460.0,
+    r0_right: Annotated[
+        float | None, typer.Option(help="Nominal radius of the right wheel, mm, if it differs.")
+    ] = None,
+    roll: Annotated[bool, typer.Option(help="Let the wheelset roll as it moves sideways.")] = True,
+    en15302: Annotated[
+        bool,
+        typer.Option(
+            "--en15302",
+            help="Set-up of EN 15302: level axle, profile origins at 750 mm, 0.1 mm grid. Rail "
+            "files are taken to hold their inclination.",
+        ),
+    ] = False,
+    amplitudes: Annotated[
+        str, typer.Option(help="Amplitudes in mm: 1,2,3 or first:last:step.")
+    ] = "1:8:1",
+    wheel_right: Annotated[
+        str | None, typer.Option(help="Right wheel, if it differs from the left one.")
+    ] = None,
+    rail_right: Annotated[
+        str | None, typer.Option(help="Right rail, if it differs from the left one.")
+    ] = None,
+    smooth: Annotated[
+        str, typer.Option(help="Smoothing of files: gcv, none, or the noise in mm.")
+    ] = "gcv",
+    unit: Annotated[str | None, typer.Option(help="Unit of files: mm, m, cm, um, in.")] = None,
+    as_json: AsJson = False,
+    csv: Annotated[Path | None, typer.Option(help="Write the conicities to this file.")] = None,
+    contact_csv: Annotated[
+        Path | None, typer.Option(help="Write the contacts over y to this file, SI units.")
+    ] = None,
+    plot: Annotated[Path | None, typer.Option(help="Draw profiles and results, SVG.")] = None,
+) -> None:
+    """Equivalent conicity of a wheelset on a track, to EN 15302.
+
+    Names are packaged profiles (see the command profiles); files are two columns y, z in CSV or
+    text, or MiniProf's .mpt, .whl, .ban, .rai. What was repaired in them is reported.
+    """
+    from wheelset.profiles import ContactOutcome, conicity_table
+
+    with clear_errors(ContactOutcome, exit_code=1), clear_errors(ValueError):
+        wanted = _amplitudes(amplitudes)
+        if plot and plot.suffix.lower() != ".svg":
+            raise ValueError(f'--plot {plot}: figures are drawn as SVG; end the name in ".svg"')
+        chosen: dict[str, Any] = {
+            "wheel": _loaded(wheel, "wheel", smooth, unit),
+            "wheel_right": wheel_right and _loaded(wheel_right, "wheel", smooth, unit),
+            "rail": _placed(_loaded(rail, "rail", smooth, unit), en15302),
+            "rail_right": rail_right
+            and _placed(_loaded(rail_right, "rail", smooth, unit), en15302),
+        }
+        setup = _setup(
+            gauge=gauge * 1e-3,
+            cant=_inclination(cant),
+            back_to_back=back_to_back * 1e-3,
+            r0=r0 * 1e-3,
+            r0_right=r0_right and r0_right * 1e-3,
+            roll=roll,
+        )
+        if en15302:
+            setup = _standard(setup, chosen["rail"])
+        contact = _contact(setup, chosen, max(wanted))
+        table = conicity_table(contact, wanted)
+        if not table.rows:
+            raise table.missing[0]
+    with clear_errors(OSError):
+        _write(table, contact, csv, contact_csv, plot)
+    if as_json:
+        show_json(_record(table, contact))
+    else:
+        _show(table, contact)
+
+
+def _amplitudes(text: str) -> list[float]:
+    """Amplitudes in m from ``1,2,3`` or ``1:8:0.5`` in mm."""
+    try:
+        if ":" in text:
+            first, last, step = (float(part) for part in text.split(":"))
+            count = int((last - first) / step + 1e-6) + 1
+            found = [first + k * step for k in range(count)]
+        else:
+            found = [float(part) for part in text.split(",")]
+    except (ValueError, ZeroDivisionError):
+        found = []
+    if not found or not all(0.05 <= a <= 20 for a in found):
+        raise ValueError(
+            f'--amplitudes "{text}": amplitudes in mm between 0.05 and 20 are expected, as 1,2,3 '
+            "or first:last:step"
+        )
+    return [round(a * 1e-3, 9) for a in found]
+
+
+def _inclination(text: str) -> float:
+    try:
+        one, _, run = text.partition(":")
+        return float(one) / float(run) if run else float(one)
+    except (ValueError, ZeroDivisionError):
+        raise ValueError(f'--cant "{text}": 1:40, 0.025 or 0 is expected') from None
+
+
+def _loaded(name: str, kind: Any, smooth: str, unit: str | None) -> Profile:
+    from wheelset.profiles import load_profile
+
+    how: Smoothing
+    if smooth in ("gcv", "none"):
+        how = "gcv" if smooth == "gcv" else "none"
+    else:
+        try:
+            how = float(smooth) * 1e-3
+        except ValueError:
+            raise ValueError(f'--smooth "{smooth}": gcv, none or the noise in mm') from None
+    return load_profile(name, kind, smoothing=how, unit=unit)
+
+
+def _placed(rail: Profile, en15302: bool) -> Profile:
+    """In the standard's set-up a rail from a file holds its inclination."""
+    from wheelset.profiles.catalogue import CATALOGUE
+
+    return replace(rail, in_place=True) if en15302 and rail.name not in CATALOGUE else rail
+
+
+def _setup(**values: Any) -> Setup:
+    from wheelset.profiles import Setup
+
+    return Setup(**values)
+
+
+def _standard(setup: Setup, rail: Profile) -> Setup:
+    """EN 15302's; a rail without its place is laid by gauge and inclination."""
+    from wheelset.profiles import EN_15302
+
+    standard = replace(EN_15302, r0=setup.r0, r0_right=setup.r0_right)
+    if rail.in_place:
+        return standard
+    return replace(standard, rail_origin=None, gauge=setup.gauge, cant=setup.cant)
+
+
+def _contact(setup: Setup, chosen: dict[str, Any], largest: float) -> Contact:
+    import numpy as np
+
+    from wheelset.profiles import EN_15302_GRID, contact_geometry
+
+    level = setup.wheel_origin is not None
+    spacing = EN_15302_GRID if level else SPACING
+    half = int(np.ceil(max(REACH, largest + 0.002) / spacing))
+    y = np.arange(-half, half + 1) * spacing
+    return contact_geometry(y=y, setup=setup, trim=True, **chosen)
+
+
+def _frame(table: ConicityTable) -> pd.DataFrame:
+    """The table in the units of the trade: mm, m for the wavelength."""
+    frame = table.to_frame().reset_index()
+    for column in ("amplitude", "low", "high", "dr"):
+        frame[column] *= 1e3
+    units = {"amplitude": "amplitude_mm", "low": "low_mm", "high": "high_mm", "dr": "dr_mm"}
+    return frame.rename(columns={**units, "wavelength": "wavelength_m"})
+
+
+def _write(
+    table: ConicityTable,
+    contact: Contact,
+    csv: Path | None,
+    contact_csv: Path | None,
+    plot: Path | None,
+) -> None:
+    for path, frame in ((csv, _frame(table).set_index("amplitude_mm")), (contact_csv, None)):
+        if path:
+            (contact.to_frame() if frame is None else frame).to_csv(path)
+            error_console().print(f"wrote {path}", highlight=False)
+    if plot:
+        from wheelset.plotting.profiles import conicity_panels
+        from wheelset.plotting.style import save
+
+        save(conicity_panels(contact.to_frame(), table.to_frame()), plot)
+        error_console().print(f"wrote {plot}", highlight=False)
+
+
+def _record(table: ConicityTable, contact: Contact) -> dict[str, Any]:
+    return {
+        "setup": asdict(contact.setup),
+        "profiles": [
+            {"name": p.name, "kind": p.kind, "source": p.source, "notes": list(p.notes)}
+            for p in _distinct(contact)
+        ],
+        "conicity": [asdict(row) for row in table.rows],
+        "missing": [{"amplitude": m.amplitude, "reason": m.reason} for m in table.missing],
+        "nonlinearity": table.nonlinearity,
+        "jumps": [asdict(jump) for jump in contact.jumps],
+        "ended": [str(reason) for reason in contact.ended],
+    }
+
+
+def _distinct(contact: Contact) -> Iterable[Profile]:
+    """Left and right profiles, those alike once."""
+    return {id(p): p for p in (*contact.wheels, *contact.rails)}.values()
+
+
+def _show(table: ConicityTable, contact: Contact) -> None:
+    names = " / ".join(p.name for p in _distinct(contact))
+    for profile in _distinct(contact):
+        for note in profile.notes:
+            error_console().print(f"{profile.name}: {note}", highlight=False, soft_wrap=True)
+    columns = ["mm", "tan γe", "regression", "harmonic", "wave m", "Δr mm", "angle par."]
+    rows = [
+        [
+            f"{row.amplitude * 1e3:g}",
+            *(f"{value:.4f}" for value in (row.integration, row.regression, row.harmonic)),
+            f"{row.wavelength:.3f}",
+            f"{row.dr * 1e3:.4f}",
+            f"{row.contact_angle:.3f}",
+        ]
+        for row in table.rows
+    ]
+    show_table(f"{names}: equivalent conicity by amplitude", columns, rows, 7)
+    _show_words(table, contact)
+
+
+def _show_words(table: ConicityTable, contact: Contact) -> None:
+    lines = [_setup_words(contact.setup)]
+    if table.nonlinearity is not None:
+        lines.append(f"nonlinearity parameter (2 to 4 mm): {table.nonlinearity * 1e-3:+.4f} 1/mm")
+    lines += [str(jump) for jump in contact.jumps[:MOST_JUMPS]]
+    if len(contact.jumps) > MOST_JUMPS:
+        lines.append(f"and {len(contact.jumps) - MOST_JUMPS} more jumps, all in --json")
+    lines += [str(reason) for reason in (*table.missing, *contact.ended)]
+    for text in lines:
+        Console().print(text, highlight=False, soft_wrap=True)
+
+
+def _setup_words(setup: Setup) -> str:
+    motion = "rolls" if setup.roll else "axle level"
+    radii = f"{setup.r0 * 1e3:g}"
+    if setup.r0_right is not None:
+        radii += f" and {setup.r0_right * 1e3:g}"
+    if setup.wheel_origin and setup.rail_origin:
+        place = f"profile origins at {setup.wheel_origin * 1e3:g} mm"
+    else:
+        place = (
+            f"gauge {setup.gauge * 1e3:g}, back to back {setup.back_to_back * 1e3:g}, "
+            f"cant {setup.cant:g}"
+        )
+    return f"set-up: {place}, r0 {radii} mm, {motion}"
