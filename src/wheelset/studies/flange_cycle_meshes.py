@@ -29,7 +29,7 @@ from wheelset.bifurcation.cycles.cycle_start import (
 )
 from wheelset.bifurcation.outcomes import NumericalOutcome
 from wheelset.hunting import hunting_system
-from wheelset.studies.flange_cycles import SIZES, Family, Parameters, case_vehicle, hopf_of
+from wheelset.studies.flange_cycles import Family, Parameters, case_vehicle, hopf_of
 
 Array = NDArray[np.float64]
 
@@ -170,12 +170,10 @@ def _flipped(
     system: Any, origin: SpecialPoint, width: float, mesh: Meshing
 ) -> Start[CycleCurve] | None:
     """Asymmetric cycles beside a symmetry breaking; None where a mesh leads to none."""
-    for size in SIZES:
-        try:
-            return cycle_from_flip(system, origin.solution, "v", width, size, mesh)
-        except NumericalOutcome:
-            continue
-    return None
+    try:
+        return cycle_from_flip(system, origin.solution, "v", width, mesh=mesh)
+    except NumericalOutcome:
+        return None
 
 
 def _at_nodes(cycle: Cycle) -> float:

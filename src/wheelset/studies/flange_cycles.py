@@ -25,7 +25,7 @@ from wheelset.bifurcation.outcomes import NoConvergence, NumericalOutcome
 from wheelset.bifurcation.system import System
 from wheelset.hunting import hunting_system
 from wheelset.studies.hopf_rows import first_hopf, stability_changes
-from wheelset.studies.parameters import VehicleName, WindowParameters
+from wheelset.studies.parameters import CaseParameters, VehicleName
 from wheelset.vehicle import Vehicle
 
 #: The laws in the order of Fig. 6's panels.
@@ -44,21 +44,10 @@ STEPS = {"quick": (300, 12, 6), "paper": (600, 40, 20)}
 #: Branches end at singularities of the field, where more intervals cost much and tell little.
 MESH = Meshing(most=120)
 
-#: First sizes of a family sent off: close to a singularity only a small one stays inside.
-SIZES = (1e-2, 1e-3, 1e-4)
 
-
-class Parameters(WindowParameters):
+class Parameters(CaseParameters):
     """Parameters of the study of section 3's limit cycles."""
 
-    vehicle_case_1: VehicleName = Field(
-        default="guo2021_case1",
-        description="Vehicle of case 1 (supercritical): packaged name or path of a file.",
-    )
-    vehicle_case_2: VehicleName = Field(
-        default="guo2021_case2",
-        description="Vehicle of case 2 (subcritical): packaged name or path of a file.",
-    )
     vehicle_in_full: VehicleName = Field(
         default="guo2021",
         description="Vehicle whose contact-angle terms are put back to see what they change.",
@@ -66,11 +55,6 @@ class Parameters(WindowParameters):
     vehicle_physical: VehicleName = Field(
         default="guo2021_physical", description="Vehicle of the physically consistent reading."
     )
-
-    @property
-    def cases(self) -> dict[int, str]:
-        """Vehicle by case number of the paper."""
-        return {1: self.vehicle_case_1, 2: self.vehicle_case_2}
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,24 +156,11 @@ def _sent_off(
 
 
 def from_flip(
-    system: System,
-    origin: SpecialPoint,
-    window: tuple[float, float],
-    steps: int,
-    mesh: Meshing = MESH,
+    system: System, origin: SpecialPoint, window: tuple[float, float], steps: int
 ) -> Branch:
-    """The family sent off at a symmetry breaking or a doubling, from the greatest size that can be
-    reached. Raises the outcome of the smallest one.
-    """
+    """The family sent off at a symmetry breaking or a doubling. Raises the outcome of its start."""
     width = window[1] - window[0]
-    for size in SIZES:
-        try:
-            start = cycle_from_flip(system, origin.solution, "v", width, size, mesh)
-            break
-        except NumericalOutcome as outcome:
-            failure = outcome
-    else:
-        raise failure
+    start = cycle_from_flip(system, origin.solution, "v", width, mesh=MESH)
     return follow(
         start.problem, start.u, direction=start.tangent, windows={"v": window}, steps=steps,
         kind="cycles",

@@ -13,7 +13,7 @@ import sympy as sp
 from pydantic import Field
 
 from wheelset.studies.hopf_rows import first_hopf, hopf_row, stability_changes
-from wheelset.studies.parameters import Speed, VehicleName, WindowParameters
+from wheelset.studies.parameters import CaseParameters, Speed
 from wheelset.vehicle import Vehicle
 from wheelset.vehicle.flange import FLANGE_LAWS, FlangeLaw, flange_force
 from wheelset.vehicle.symbols import p as symbol
@@ -29,17 +29,9 @@ FIGURE_4_REACH = 0.015
 _POINTS = {"quick": 121, "paper": 601}
 
 
-class Parameters(WindowParameters):
+class Parameters(CaseParameters):
     """Parameters of the study of section 3."""
 
-    vehicle_case_1: VehicleName = Field(
-        default="guo2021_case1",
-        description="Vehicle of case 1 (supercritical): packaged name or path of a file.",
-    )
-    vehicle_case_2: VehicleName = Field(
-        default="guo2021_case2",
-        description="Vehicle of case 2 (subcritical): packaged name or path of a file.",
-    )
     speed: Speed = Field(
         default=40.0, description="Speed of the simulated motions of Fig. 5, m/s; 0 to 1000."
     )
@@ -52,11 +44,6 @@ class Parameters(WindowParameters):
     duration: float = Field(
         default=5.0, gt=0.0, le=600.0, description="Simulated time, s; up to 600."
     )
-
-    @property
-    def cases(self) -> dict[int, str]:
-        """Vehicle by case number of the paper."""
-        return {1: self.vehicle_case_1, 2: self.vehicle_case_2}
 
 
 def force_laws(p: Parameters) -> pd.DataFrame:

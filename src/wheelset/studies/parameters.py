@@ -79,3 +79,21 @@ class WindowParameters(StudyParameters):
     def window(self) -> tuple[float, float]:
         """(v_min, v_max) in m/s."""
         return self.v_min, self.v_max
+
+
+class CaseParameters(WindowParameters):
+    """Parameters of a study of section 3's two cases."""
+
+    vehicle_case_1: VehicleName = Field(
+        default="guo2021_case1",
+        description="Vehicle of case 1 (supercritical): packaged name or path of a file.",
+    )
+    vehicle_case_2: VehicleName = Field(
+        default="guo2021_case2",
+        description="Vehicle of case 2 (subcritical): packaged name or path of a file.",
+    )
+
+    @property
+    def cases(self) -> dict[int, str]:
+        """Vehicle by case number of the paper."""
+        return {1: self.vehicle_case_1, 2: self.vehicle_case_2}
