@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import pandas as pd
 from pydantic import Field
 
-from wheelset.bifurcation.curves.branch import SpecialPoint
+from wheelset.bifurcation.curves.branch import Branch, SpecialPoint
 from wheelset.bifurcation.cycles.cycle import Cycle
 from wheelset.bifurcation.equilibria.hopf import HopfPoint
 from wheelset.studies.first_fold import SECTION_5, FirstFold, first_fold
@@ -70,6 +70,12 @@ class Reading:
         """The cycle at the fold; only of a complete reading."""
         cycle: Cycle = self.fold.solution
         return cycle
+
+    @property
+    def branch(self) -> Branch:
+        """The cycles from the Hopf point on; only of a complete reading."""
+        assert self.found.branch is not None
+        return self.found.branch
 
     @property
     def complete(self) -> bool:

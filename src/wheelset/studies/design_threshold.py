@@ -18,7 +18,6 @@ from wheelset.bifurcation.integration.endings import ReachedEnd
 from wheelset.bifurcation.integration.integrate import integrate
 from wheelset.bifurcation.system import System
 from wheelset.studies.design import Parameters, Reading
-from wheelset.studies.first_fold import cycles
 
 Array = NDArray[np.float64]
 
@@ -41,11 +40,7 @@ ACCURACY = 1e-7
 
 def family(reading: Reading) -> pd.DataFrame:
     """The cycles from the Hopf point on: v m/s, y m (greatest), unstable, point."""
-    return _branch(reading).table(["max y"]).rename(columns={"max y": "y"})
-
-
-def _branch(reading: Reading) -> Branch:
-    return cycles(reading.found.system, reading.hopf)
+    return reading.branch.table(["max y"]).rename(columns={"max y": "y"})
 
 
 def thresholds(p: Parameters, reading: Reading) -> pd.DataFrame:
@@ -56,7 +51,7 @@ def thresholds(p: Parameters, reading: Reading) -> pd.DataFrame:
     times the stable cycle's. They are missing where even the greatest dies out.
     """
     low, high = float(reading.fold.values[0]), reading.hopf.value
-    lower, upper = _parts(_branch(reading))
+    lower, upper = _parts(reading.branch)
     speeds = [low + part * (high - low) for part in PARTS[p.resolution]]
     return pd.DataFrame([_row(reading.found.system, v, lower, upper) for v in speeds])
 

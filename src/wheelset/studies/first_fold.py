@@ -33,13 +33,14 @@ SLOWED = 3.0
 class FirstFold:
     """A vehicle's first Hopf point and the first fold of the cycles born there, as far as found.
 
-    words: how the search ended, the reason where there is no fold.
+    words: how the search ended, the reason where there is no fold. branch: the cycles followed.
     """
 
     system: System
     hopf: HopfPoint | None
     fold: SpecialPoint | None
     words: str
+    branch: Branch | None = None
 
     @property
     def cycle(self) -> Cycle | None:
@@ -60,8 +61,8 @@ def first_fold(vehicle: Vehicle, window: tuple[float, float]) -> FirstFold:
         return FirstFold(system, hopf, None, f"no cycles: {outcome}")
     folds = branch.of_kind("LPC")
     if folds:
-        return FirstFold(system, hopf, folds[0], folds[0].words)
-    return FirstFold(system, hopf, None, without_fold(hopf, branch))
+        return FirstFold(system, hopf, folds[0], folds[0].words, branch)
+    return FirstFold(system, hopf, None, without_fold(hopf, branch), branch)
 
 
 def cycles(system: System, hopf: HopfPoint) -> Branch:

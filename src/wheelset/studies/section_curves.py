@@ -5,7 +5,6 @@ Source: Guo, Shi, Luo, Zeng, Nonlinear Dynamics 104 (2021) 989-1005, Figs 7 and 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -77,11 +76,6 @@ class Scan:
     def shows(self, value: float) -> bool:
         """Whether the panel does."""
         return self.window[0] <= value <= self.window[1]
-
-
-def scan_of(scans: Sequence[Scan], panel: str) -> Scan:
-    """The scan of that panel."""
-    return next(scan for scan in scans if scan.panel == panel)
 
 
 def hopf_branch(
