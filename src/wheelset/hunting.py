@@ -17,7 +17,7 @@ from wheelset.vehicle.equations import EquationsOfMotion, equations_of_motion
 from wheelset.vehicle.flange import region
 from wheelset.vehicle.geometry import ContactGeometry, PolynomialGeometry
 from wheelset.vehicle.options import ModelOptions
-from wheelset.vehicle.symbols import STATE, p, v, y
+from wheelset.vehicle.symbols import STATE, p, reach, v, y
 from wheelset.vehicle.vehicle import Vehicle
 
 #: Speed a system starts with, m/s.
@@ -40,7 +40,7 @@ def hunting_system(
         if contact is None
         else _field(equations_of_motion(vehicle.options, geometry))
     )
-    values = {**vehicle.values, "v": speed}
+    values = {**vehicle.values, "v": speed, reach.name: geometry.reach}
     used = {name: values[name] for name in field.parameter_names if name in values}
     return System(field, used, dict(geometry.functions), SCALES)
 
@@ -67,7 +67,8 @@ def _field(equations: EquationsOfMotion) -> VectorField:
     used = set().union(*(e.free_symbols for e in expressions))
     law = equations.law
     switch = None if law.smooth else Switch(region, y, law.thresholds, law.regions)
-    inputs = (v, *(q for q in vars(p).values() if q in used), *((region,) if switch else ()))
+    known = (*vars(p).values(), reach)
+    inputs = (v, *(q for q in known if q in used), *((region,) if switch else ()))
     return VectorField(
         STATE, inputs, equations.derivative, equations.assignments, _domain(equations), switch
     )

@@ -1,1 +1,1 @@
-"""Data that travels with the package: vehicles."""
+"""Data that travels with the package: vehicles, worn profiles."""

@@ -14,6 +14,7 @@ from wheelset.bifurcation.system import System
 from wheelset.hunting import hunting_system
 from wheelset.studies.hopf_rows import first_hopf, stability_changes
 from wheelset.vehicle import Vehicle
+from wheelset.vehicle.geometry import ContactGeometry
 
 #: What section 5 gives every vehicle: a3 where another coefficient is scanned (p. 1000), and the
 #: flange law that section 3 recommends for cycles.
@@ -48,15 +49,24 @@ class FirstFold:
         return None if self.fold is None else self.fold.solution
 
 
-def first_fold(vehicle: Vehicle, window: tuple[float, float]) -> FirstFold:
-    """Hopf point of lowest speed in a window, m/s, and the first fold along its cycles."""
-    system = hunting_system(vehicle)
-    hopf = first_hopf(stability_changes(vehicle, window))
+def first_fold(
+    vehicle: Vehicle,
+    window: tuple[float, float],
+    contact: ContactGeometry | None = None,
+    above: float = ABOVE,
+) -> FirstFold:
+    """Hopf point of lowest speed in a window, m/s, and the first fold along its cycles.
+
+    contact: a geometry to use instead of the vehicle's polynomials. above: the multiple of the Hopf
+    speed up to which cycles are followed.
+    """
+    system = hunting_system(vehicle, contact)
+    hopf = first_hopf(stability_changes(vehicle, window, contact))
     if hopf is None:
         words = f"no Hopf point between {window[0]:g} and {window[1]:g} m/s"
         return FirstFold(system, None, None, words)
     try:
-        branch = cycles(system, hopf)
+        branch = cycles(system, hopf, above)
     except NumericalOutcome as outcome:
         return FirstFold(system, hopf, None, f"no cycles: {outcome}")
     folds = branch.of_kind("LPC")
@@ -65,10 +75,10 @@ def first_fold(vehicle: Vehicle, window: tuple[float, float]) -> FirstFold:
     return FirstFold(system, hopf, None, without_fold(hopf, branch), branch)
 
 
-def cycles(system: System, hopf: HopfPoint) -> Branch:
+def cycles(system: System, hopf: HopfPoint, above: float = ABOVE) -> Branch:
     """The cycles born at a Hopf point, followed in speed until they leave its neighbourhood."""
     start = cycle_from_hopf(system, hopf, WIDTH)
-    window = BELOW * hopf.value, ABOVE * hopf.value
+    window = BELOW * hopf.value, above * hopf.value
     return follow(
         start.problem, start.u, direction=start.tangent, windows={"v": window}, steps=400,
         kind="cycles",

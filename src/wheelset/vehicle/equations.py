@@ -38,7 +38,7 @@ from wheelset.vehicle.quantities import (
     u2,
     ydd,
 )
-from wheelset.vehicle.symbols import p, psi, psid, s, v, y, yd
+from wheelset.vehicle.symbols import p, psi, psid, reach, s, v, y, yd
 
 #: cos(delta + s phi) has to exceed this: beyond it tan and 1/cos in Eqs. (7), (8) blow up.
 LEAST_COSINE = 1e-3
@@ -92,6 +92,7 @@ def equations_of_motion(
         *_on_both_wheels(wheel),
         *((e.symbol, e.expression) for e in body),
         *((_bound_symbol(i), b.expression) for i, b in enumerate(law.bounds)),
+        *(_within_reach() if contact.reach is not None else ()),
     )
     derivative = (yd, psid, ydd, psidd)
     return EquationsOfMotion(
@@ -101,7 +102,7 @@ def equations_of_motion(
         body,
         assignments,
         derivative,
-        _requirements(options, law),
+        (*_requirements(options, law), *(_reach_requirements() if contact.reach else ())),
         law,
     )
 
@@ -176,6 +177,20 @@ def _wheel_requirements(options: ModelOptions, side: str) -> tuple[Requirement, 
         ),
         *((smooth,) if options.creep_law == "shen_hedrick_elkins" else ()),
     )
+
+
+def _within_reach() -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
+    """What is left of the displacements with known contacts, on either side."""
+    return tuple((_room_symbol(side), reach - SIDES[side] * y) for side in SIDES)
+
+
+def _reach_requirements() -> tuple[Requirement, ...]:
+    words = "distance to the last displacement with a known contact"
+    return tuple(Requirement(_room_symbol(side), words, f"to the {side}", "m") for side in SIDES)
+
+
+def _room_symbol(side: str) -> sp.Symbol:
+    return sp.Symbol(f"contact_room_{side}", real=True)
 
 
 def _bound_symbol(i: int) -> sp.Symbol:

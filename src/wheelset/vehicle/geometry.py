@@ -9,6 +9,7 @@ rule is the model's, so both go through the same Hopf points, cycles and normal 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
@@ -45,6 +46,11 @@ class ContactGeometry(Protocol):
         """Functions the expressions leave to be expanded numerically, by name."""
         ...
 
+    @property
+    def reach(self) -> float | None:
+        """The |y| [m] that motions must stay below; None: no such end."""
+        ...
+
 
 @dataclass(frozen=True)
 class PolynomialGeometry:
@@ -57,6 +63,7 @@ class PolynomialGeometry:
     """
 
     functions: Mapping[str, Expandable] = field(default_factory=dict)
+    reach: None = None
 
     def expression(self, quantity: str, side: str) -> sp.Expr:
         """Polynomial in y of a quantity on a side."""
@@ -85,12 +92,16 @@ class ExpandedGeometry:
     """A geometry given by six functions that can be expanded at any y, e.g. splines.
 
     functions: keys "dr_left", "delta_left", "rho_left", "dr_right", ...; dr in m, delta in rad,
-    rho in 1/m. ``mirrored`` makes the right wheel from the left one.
+    rho in 1/m. reach: the |y| [m] up to which they are known; motions that come there leave the
+    domain of the model. ``mirrored`` makes the right wheel from the left one.
     """
 
     functions: Mapping[str, Expandable]
+    reach: float | None = None
 
     def __post_init__(self) -> None:
+        if self.reach is not None and not 0 < self.reach < math.inf:
+            raise ValueError(f"reach = {self.reach:g} m is out of range; it is above 0, or None")
         missing = {f"{q}_{side}" for q in QUANTITIES for side in SIDES} - set(self.functions)
         if missing:
             raise ValueError(
@@ -99,11 +110,13 @@ class ExpandedGeometry:
             )
 
     @classmethod
-    def mirrored(cls, dr: Expandable, delta: Expandable, rho: Expandable) -> ExpandedGeometry:
+    def mirrored(
+        cls, dr: Expandable, delta: Expandable, rho: Expandable, reach: float | None = None
+    ) -> ExpandedGeometry:
         """Both wheels alike: the right one is the left one's mirror image, f_right(y) = f(-y)."""
         left = {"dr_left": dr, "delta_left": delta, "rho_left": rho}
         right = {name.replace("left", "right"): Mirrored(f) for name, f in left.items()}
-        return cls({**left, **right})
+        return cls({**left, **right}, reach)
 
     def expression(self, quantity: str, side: str) -> sp.Expr:
         """An undefined function of y, expanded numerically."""
