@@ -6,6 +6,7 @@ and the speed ``v`` in m/s.
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 
 import sympy as sp
@@ -40,7 +41,7 @@ def hunting_system(
         if contact is None
         else _field(equations_of_motion(vehicle.options, geometry))
     )
-    values = {**vehicle.values, "v": speed, reach.name: geometry.reach}
+    values = {**vehicle.values, "v": speed, reach.name: geometry.reach or math.inf}
     used = {name: values[name] for name in field.parameter_names if name in values}
     return System(field, used, dict(geometry.functions), SCALES)
 

@@ -51,7 +51,8 @@ def test_lines_join_the_places_of_contact():
     first = ax.lines[2]
     assert first.get_xdata() == pytest.approx([4.0, -4.0])
     assert first.get_ydata() == pytest.approx([0.05 * 4.0 - 15.0, 15.0])
-    assert {t.get_text() for t in ax.texts} == {"-4", "-2", "+0", "+2", "+4"}
+    # displacement and place are the same here: labels every 2 mm would be less than 5 mm apart
+    assert {t.get_text() for t in ax.texts} == {"-4", "+2"}
 
 
 def test_conicities_stand_at_their_amplitudes():

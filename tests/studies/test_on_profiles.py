@@ -63,7 +63,7 @@ def test_cycles_end_where_the_contacts_do():
 
 @pytest.mark.parametrize("reach", [0.0, -0.001, float("inf"), float("nan")])
 def test_a_reach_that_is_none_is_refused(reach):
-    with pytest.raises(ValueError, match="reach = .* out of range"):
+    with pytest.raises(ValueError, match=r"reach = .* out of range"):
         ExpandedGeometry.mirrored(*[Polynomial((0.0,))] * 3, reach=reach)
 
 

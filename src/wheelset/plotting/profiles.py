@@ -12,6 +12,9 @@ from wheelset.plotting.style import FAINT, GREEN, INK, ORANGE, OURS, panels, sty
 
 _SIDES = {"left": (OURS, "-"), "right": (ORANGE, "--")}
 
+#: Displacements whose contact lines are labelled, and how far apart the labels are at least, mm.
+_LABELLED, _APART = 2.0, 5.0
+
 #: Curvatures beyond this are cut off, 1/m: a flange's would hide a tread's.
 _CURVATURE = 30.0
 
@@ -51,11 +54,14 @@ def contact_lines(
     apart = 15.0
     ax.plot(wheel["y"] * 1e3, wheel["z"] * 1e3 - apart, color=INK)
     ax.plot(rail["y"] * 1e3, rail["z"] * 1e3 + apart, color=INK)
+    labels: list[float] = []
     places = contact[[f"wheel_y_{side}", f"rail_y_{side}"]].to_numpy(float) * 1e3
     for y, ends in zip(contact.index.to_numpy(float) * 1e3, places, strict=True):
         heights = [_height(wheel, ends[0]) - apart, _height(rail, ends[1]) + apart]
         ax.plot(ends, heights, color=OURS, linewidth=0.7)
-        if abs(y - 2 * round(y / 2)) < 1e-6:
+        even = abs(y - _LABELLED * round(y / _LABELLED)) < 1e-6
+        if even and all(abs(ends[0] - x) >= _APART for x in labels):
+            labels.append(ends[0])
             ax.annotate(f"{y:+.0f}", (ends[0], heights[0] - 1.5), color=FAINT, fontsize=9)
     ax.set(xlabel="$y$ of the profile, outward (mm)", ylabel="$z$, down, moved apart (mm)")
     ax.invert_yaxis()

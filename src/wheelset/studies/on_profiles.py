@@ -2,9 +2,9 @@
 
 Nothing is fitted by a polynomial: the contact's functions of y are averaged over a stated width and
 go into the model as splines, with all their derivatives. A jump of the contact inside that range
-becomes a steep passage of that width, about the width of a contact patch, over which the load in
-truth moves from one place to the other. Small cycles do not see it, large ones pass it; what a
-cycle's fold owes to the width is told by folds at another one.
+becomes a steep passage of that width; in truth, too, the load moves from one place to the other
+over some way. Small cycles do not see it, large ones pass it; what a fold there owes to the width
+is told by the fold at another one.
 """
 
 from __future__ import annotations
@@ -110,11 +110,11 @@ def lowest_cycle(run: OnProfiles) -> LowestCycle | None:
     """The lowest speed at which a cycle born at the Hopf point exists, at most the Hopf speed."""
     if run.branch is None or run.hopf is None:
         return None
-    table = cycle_table(run)
-    low = table["v"].idxmin()
-    bound = low == table.index[-1] and table["v"].iloc[-1] < table["v"].iloc[0]
+    v, amplitude = cycle_table(run)[["v", "amplitude"]].to_numpy(float).T
+    low = int(v.argmin())
+    bound = low == len(v) - 1 and v[-1] < v[0]
     words = run.branch.ended.words if bound else ""
-    return LowestCycle(float(table["v"][low]), float(table["amplitude"][low]), bool(bound), words)
+    return LowestCycle(float(v[low]), float(amplitude[low]), bool(bound), words)
 
 
 def cycle_table(run: OnProfiles) -> pd.DataFrame:
@@ -134,14 +134,16 @@ def speed_of_amplitude(run: OnProfiles, amplitudes: ArrayLike) -> NDArray[np.flo
     grown = np.maximum.accumulate(table["amplitude"].to_numpy(float))
     first = np.concatenate([[True], np.diff(grown) > 0]) if len(grown) else np.array([], bool)
     v = table["v"].to_numpy(float)
+    asked = np.asarray(amplitudes, float)
     if not first.any():
-        return np.full(np.shape(amplitudes), np.nan)
-    return np.interp(amplitudes, grown[first], v[first], left=v[0], right=np.nan)
+        return np.full(asked.shape, np.nan)
+    return np.interp(asked, grown[first], v[first], left=v[0], right=np.nan)
 
 
 def speeds_row(run: OnProfiles) -> dict[str, object]:
     """v_lin m/s, flc 1/s, frequency Hz; v_fold m/s, fold_amplitude m of the first fold; v_non m/s,
-    amplitude m of the slowest cycle, bound; words. None for what there is not.
+    amplitude m of the slowest cycle, bound; words: why there is no fold, else "". None for what
+    there is not.
     """
     hopf, lowest = run.hopf, lowest_cycle(run)
     fold = run.folds[0] if run.folds else None
@@ -154,5 +156,5 @@ def speeds_row(run: OnProfiles) -> dict[str, object]:
         "v_non": None if lowest is None else lowest.v,
         "amplitude": None if lowest is None else lowest.amplitude,
         "bound": None if lowest is None else lowest.bound,
-        "words": run.found.words,
+        "words": "" if fold else run.found.words,
     }
