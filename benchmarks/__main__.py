@@ -2,9 +2,13 @@
 
 import sys
 
-from benchmarks import engine, front_door
+from benchmarks import engine, front_door, profiles
 
-BENCHMARKS = {"front_door": front_door.main, "engine": engine.main}
+BENCHMARKS = {
+    "front_door": front_door.main,
+    "profiles": profiles.main,
+    "engine": engine.main,
+}
 
 for name in sys.argv[1:] or BENCHMARKS:
     BENCHMARKS[name]()

@@ -20,7 +20,7 @@ DOORS: dict[str, set[str]] = {
     "wear": {"wear", "profiles"},
     "bifurcation": {"bifurcation"},
     "hunting": {"vehicle", "bifurcation"},
-    "studies": {"studies", "hunting", "vehicle", "bifurcation", "profiles", "wear"},
+    "studies": {"studies", "hunting", "vehicle", "bifurcation", "profiles", "wear", "data"},
     "published": {"published", "data"},
     "plotting": {"plotting", "bifurcation", "published"},
     "publishing": {"publishing"},

@@ -126,7 +126,7 @@ def _kalker(*coefficients: str) -> sp.Expr:
 
 def _creep_coefficients(options: ModelOptions) -> tuple[Equation, ...]:
     """Eqs. (10), (11): Kalker's coefficients on the Hertzian ellipse."""
-    # C33 has no published fit of this form; 2 % of Kalker's table at nu = 0.28.
+    # C33 has no published fit of this form; within 2.3 % of Kalker's table at nu = 0.28.
     fit = sp.Float("0.3501") + sp.Float("0.8051") * ratio + sp.Float("0.0596") / (1 + ratio)
     spin = {"none": sp.Integer(0), "fit": fit}[options.spin_moment]
     f23_area = patch ** sp.Rational(3, 2)
