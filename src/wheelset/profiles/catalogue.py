@@ -1,4 +1,7 @@
-"""The packaged profiles by name. A new profile is its formula and a line here."""
+"""The packaged profiles by name. A new profile is its formula and a line here.
+
+Simulated worn wheels, ``LMB10@4.8-usfd`` (mileage in 1e4 km, law), are those of ``worn.py``.
+"""
 
 from __future__ import annotations
 
@@ -6,10 +9,11 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from wheelset.profiles import rails, wheels
-from wheelset.profiles.curves import Piece, PiecewiseCurve
 from wheelset.profiles.errors import ProfileError
+from wheelset.profiles.formulas import in_metres
 from wheelset.profiles.profile import Kind, Profile
 from wheelset.profiles.wheels import Formula
+from wheelset.profiles.worn import worn_name, worn_names, worn_profiles
 
 #: name: formula in mm, kind, whether inclination and place are in it, source.
 CATALOGUE: dict[str, tuple[Formula, Kind, bool, str]] = {
@@ -26,31 +30,23 @@ CATALOGUE: dict[str, tuple[Formula, Kind, bool, str]] = {
 
 def packaged(name: str) -> Profile:
     """The packaged profile of that name, upper and lower case alike; ProfileError otherwise."""
-    by_folded = {known.casefold(): known for known in CATALOGUE}
+    names = (*CATALOGUE, *worn_names())
+    by_folded = {known.casefold(): known for known in names}
     known = by_folded.get(name.casefold())
     if known is None:
         close = get_close_matches(name.casefold(), by_folded, n=1)
         hint = f' (did you mean "{by_folded[close[0]]}"?)' if close else ""
         raise ProfileError(
-            f'unknown profile "{name}"{hint}: neither a file nor one of {", ".join(CATALOGUE)}'
+            f'unknown profile "{name}"{hint}: neither a file nor one of {", ".join(CATALOGUE)}, '
+            f"nor a simulated worn wheel as {worn_name(4.8, 'usfd')}"
         )
+    if known not in CATALOGUE:
+        mileage, law = worn_names()[known]
+        return worn_profiles(law)[mileage]
     formula, kind, in_place, source = CATALOGUE[known]
     return Profile(known, kind, in_metres(formula), in_place=in_place, source=source)
 
 
 def packaged_profiles() -> Iterator[Profile]:
-    """All of them, wheels first."""
-    return (packaged(name) for name in CATALOGUE)
-
-
-def in_metres(formula: Formula, millimetre: float = 1e-3) -> PiecewiseCurve:
-    """A formula in mm as a curve in m."""
-    joints, pieces = formula
-    return PiecewiseCurve(
-        tuple(y * millimetre for y in joints), tuple(_scaled(piece, millimetre) for piece in pieces)
-    )
-
-
-def _scaled(piece: Piece, unit: float) -> Piece:
-    p = tuple(c * unit ** (1 - k) for k, c in enumerate(piece.p))
-    return Piece(p, piece.sense, piece.radius * unit, piece.centre * unit)
+    """All of them: wheels, rails, simulated worn wheels."""
+    return (packaged(name) for name in (*CATALOGUE, *worn_names()))
