@@ -36,4 +36,9 @@ def test_the_book_shows_what_is_printed(command, printed):
 
 
 def test_there_are_transcripts_of_every_command_over_the_physics():
-    assert {c.split()[0] for c, _ in TRANSCRIPTS} == {"vehicles", "hopf", "simulate"}
+    assert {c.split()[0] for c, _ in TRANSCRIPTS} == {
+        "vehicles",
+        "hopf",
+        "simulate",
+        "conicity",
+    }

@@ -12,6 +12,8 @@ import typer
 from wheelset.cli.hunting import hopf, simulate, vehicles
 from wheelset.cli.profiles import conicity, profiles
 from wheelset.cli.publishing import book, run
+from wheelset.cli.report import report
+from wheelset.cli.wear import wear
 
 app = typer.Typer(
     name="wheelset",
@@ -19,7 +21,7 @@ app = typer.Typer(
     no_args_is_help=True,
     pretty_exceptions_enable=False,
 )
-for command in (vehicles, hopf, simulate, profiles, conicity, run, book):
+for command in (vehicles, hopf, simulate, profiles, conicity, report, wear, run, book):
     app.command()(command)
 
 

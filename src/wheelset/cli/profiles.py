@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -11,6 +10,21 @@ import typer
 from rich.console import Console
 
 from wheelset.cli.errors import clear_errors, error_console
+from wheelset.cli.profile_options import (
+    Amplitudes,
+    BackToBack,
+    Cant,
+    Gauge,
+    RailRight,
+    Smooth,
+    Unit,
+    WheelRight,
+    amplitudes_in_metres,
+    distinct,
+    inclination,
+    loaded,
+    setup_words,
+)
 from wheelset.cli.tables import show_json, show_table
 
 if TYPE_CHECKING:
@@ -18,7 +32,6 @@ if TYPE_CHECKING:
 
     from wheelset.profiles import Contact, Profile, Setup
     from wheelset.profiles.conicity import ConicityTable
-    from wheelset.profiles.smoothing import Smoothing
 
 #: Half the range of displacements that is searched, m, and the spacing of the search, m.
 REACH, SPACING = 0.010, 5e-5
@@ -53,11 +66,9 @@ def profiles(as_json: AsJson = False) -> None:
 def conicity(
     wheel: Wheel,
     rail: Rail,
-    gauge: Annotated[float, typer.Option(help="Track gauge, mm.")] = 1435.0,
-    cant: Annotated[str, typer.Option(help="Rail inclination: 1:40, 0.025 or 0.")] = "1:40",
-    back_to_back: Annotated[
-        float, typer.Option(help="Distance of the wheels' back faces, mm.")
-    ] = 1353.0,
+    gauge: Gauge = 1435.0,
+    cant: Cant = "1:40",
+    back_to_back: BackToBack = 1353.0,
     r0: Annotated[float, typer.Option(help="Nominal rolling radius, mm.")] = 460.0,
     r0_right: Annotated[
         float | None, typer.Option(help="Nominal radius of the right wheel, mm, if it differs.")
@@ -71,19 +82,11 @@ def conicity(
             "files are taken to hold their inclination.",
         ),
     ] = False,
-    amplitudes: Annotated[
-        str, typer.Option(help="Amplitudes in mm: 1,2,3 or first:last:step.")
-    ] = "1:8:1",
-    wheel_right: Annotated[
-        str | None, typer.Option(help="Right wheel, if it differs from the left one.")
-    ] = None,
-    rail_right: Annotated[
-        str | None, typer.Option(help="Right rail, if it differs from the left one.")
-    ] = None,
-    smooth: Annotated[
-        str, typer.Option(help="Smoothing of files: gcv, none, or the noise in mm.")
-    ] = "gcv",
-    unit: Annotated[str | None, typer.Option(help="Unit of files: mm, m, cm, um, in.")] = None,
+    amplitudes: Amplitudes = "1:8:1",
+    wheel_right: WheelRight = None,
+    rail_right: RailRight = None,
+    smooth: Smooth = "gcv",
+    unit: Unit = None,
     as_json: AsJson = False,
     csv: Annotated[Path | None, typer.Option(help="Write the conicities to this file.")] = None,
     contact_csv: Annotated[
@@ -99,19 +102,18 @@ def conicity(
     from wheelset.profiles import ContactOutcome, conicity_table
 
     with clear_errors(ContactOutcome, exit_code=1), clear_errors(ValueError):
-        wanted = _amplitudes(amplitudes)
+        wanted = amplitudes_in_metres(amplitudes)
         if plot and plot.suffix.lower() != ".svg":
             raise ValueError(f'--plot {plot}: figures are drawn as SVG; end the name in ".svg"')
         chosen: dict[str, Any] = {
-            "wheel": _loaded(wheel, "wheel", smooth, unit),
-            "wheel_right": wheel_right and _loaded(wheel_right, "wheel", smooth, unit),
-            "rail": _placed(_loaded(rail, "rail", smooth, unit), en15302),
-            "rail_right": rail_right
-            and _placed(_loaded(rail_right, "rail", smooth, unit), en15302),
+            "wheel": loaded(wheel, "wheel", smooth, unit),
+            "wheel_right": wheel_right and loaded(wheel_right, "wheel", smooth, unit),
+            "rail": _placed(loaded(rail, "rail", smooth, unit), en15302),
+            "rail_right": rail_right and _placed(loaded(rail_right, "rail", smooth, unit), en15302),
         }
         setup = _setup(
             gauge=gauge * 1e-3,
-            cant=_inclination(cant),
+            cant=inclination(cant),
             back_to_back=back_to_back * 1e-3,
             r0=r0 * 1e-3,
             r0_right=r0_right and r0_right * 1e-3,
@@ -129,47 +131,6 @@ def conicity(
         show_json(_record(table, contact))
     else:
         _show(table, contact)
-
-
-def _amplitudes(text: str) -> list[float]:
-    """Amplitudes in m from ``1,2,3`` or ``1:8:0.5`` in mm."""
-    try:
-        if ":" in text:
-            first, last, step = (float(part) for part in text.split(":"))
-            count = int((last - first) / step + 1e-6) + 1
-            found = [first + k * step for k in range(count)]
-        else:
-            found = [float(part) for part in text.split(",")]
-    except (ValueError, ZeroDivisionError):
-        found = []
-    if not found or not all(0.05 <= a <= 20 for a in found):
-        raise ValueError(
-            f'--amplitudes "{text}": amplitudes in mm between 0.05 and 20 are expected, as 1,2,3 '
-            "or first:last:step"
-        )
-    return [round(a * 1e-3, 9) for a in found]
-
-
-def _inclination(text: str) -> float:
-    try:
-        one, _, run = text.partition(":")
-        return float(one) / float(run) if run else float(one)
-    except (ValueError, ZeroDivisionError):
-        raise ValueError(f'--cant "{text}": 1:40, 0.025 or 0 is expected') from None
-
-
-def _loaded(name: str, kind: Any, smooth: str, unit: str | None) -> Profile:
-    from wheelset.profiles import load_profile
-
-    how: Smoothing
-    if smooth in ("gcv", "none"):
-        how = "gcv" if smooth == "gcv" else "none"
-    else:
-        try:
-            how = float(smooth) * 1e-3
-        except ValueError:
-            raise ValueError(f'--smooth "{smooth}": gcv, none or the noise in mm') from None
-    return load_profile(name, kind, smoothing=how, unit=unit)
 
 
 def _placed(rail: Profile, en15302: bool) -> Profile:
@@ -240,7 +201,7 @@ def _record(table: ConicityTable, contact: Contact) -> dict[str, Any]:
         "setup": asdict(contact.setup),
         "profiles": [
             {"name": p.name, "kind": p.kind, "source": p.source, "notes": list(p.notes)}
-            for p in _distinct(contact)
+            for p in distinct(contact)
         ],
         "conicity": [asdict(row) for row in table.rows],
         "missing": [{"amplitude": m.amplitude, "reason": m.reason} for m in table.missing],
@@ -250,14 +211,9 @@ def _record(table: ConicityTable, contact: Contact) -> dict[str, Any]:
     }
 
 
-def _distinct(contact: Contact) -> Iterable[Profile]:
-    """Left and right profiles, those alike once."""
-    return {id(p): p for p in (*contact.wheels, *contact.rails)}.values()
-
-
 def _show(table: ConicityTable, contact: Contact) -> None:
-    names = " / ".join(p.name for p in _distinct(contact))
-    for profile in _distinct(contact):
+    names = " / ".join(p.name for p in distinct(contact))
+    for profile in distinct(contact):
         for note in profile.notes:
             error_console().print(f"{profile.name}: {note}", highlight=False, soft_wrap=True)
     columns = ["mm", "tan γe", "regression", "harmonic", "wave m", "Δr mm", "angle par."]
@@ -276,7 +232,7 @@ def _show(table: ConicityTable, contact: Contact) -> None:
 
 
 def _show_words(table: ConicityTable, contact: Contact) -> None:
-    lines = [_setup_words(contact.setup)]
+    lines = [setup_words(contact.setup)]
     if table.nonlinearity is not None:
         lines.append(f"nonlinearity parameter (2 to 4 mm): {table.nonlinearity * 1e-3:+.4f} 1/mm")
     lines += [str(jump) for jump in contact.jumps[:MOST_JUMPS]]
@@ -285,18 +241,3 @@ def _show_words(table: ConicityTable, contact: Contact) -> None:
     lines += [str(reason) for reason in (*table.missing, *contact.ended)]
     for text in lines:
         Console().print(text, highlight=False, soft_wrap=True)
-
-
-def _setup_words(setup: Setup) -> str:
-    motion = "rolls" if setup.roll else "axle level"
-    radii = f"{setup.r0 * 1e3:g}"
-    if setup.r0_right is not None:
-        radii += f" and {setup.r0_right * 1e3:g}"
-    if setup.wheel_origin and setup.rail_origin:
-        place = f"profile origins at {setup.wheel_origin * 1e3:g} mm"
-    else:
-        place = (
-            f"gauge {setup.gauge * 1e3:g}, back to back {setup.back_to_back * 1e3:g}, "
-            f"cant {setup.cant:g}"
-        )
-    return f"set-up: {place}, r0 {radii} mm, {motion}"

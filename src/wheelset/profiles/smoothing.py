@@ -46,8 +46,8 @@ def smoothed(y: Array, z: Array, how: Smoothing = "gcv") -> tuple[SplineCurve, s
         return SplineCurve.through(y, z), "not smoothed: a cubic spline through all points"
     noise = None if how == "gcv" else _checked_noise(how)
     y, z = y * 1e3, z * 1e3
-    t = _contour(y, z)
-    ends = _zones(t, y, z)
+    t = contour(y, z)
+    ends = zone_ends(t, y, z)
     zones = [_Zone.fitted(t, y, z, a, b, noise) for a, b in pairwise(ends)]
     curve = _joined(zones, ends, t)
     residual = z - curve(y)
@@ -65,14 +65,14 @@ def _checked_noise(noise: Smoothing) -> float:
     return value * 1e3
 
 
-def _contour(y: Array, z: Array) -> Array:
+def contour(y: Array, z: Array) -> Array:
     """Length along the contour, mm, along slightly filtered points so that noise does not add."""
     soft = gaussian_filter1d(z, 3.0, mode="nearest")
     step = np.hypot(np.diff(y), np.diff(soft))
     return np.concatenate([[0.0], np.cumsum(np.maximum(step, 1e-6))])
 
 
-def _zones(t: Array, y: Array, z: Array) -> Array:
+def zone_ends(t: Array, y: Array, z: Array) -> Array:
     """Contour at the ends of the zones: where the running surface meets flange and field side."""
     grid = np.arange(y[0], y[-1], 0.25)
     slope = np.gradient(gaussian_filter1d(np.interp(grid, y, z), 4.0, mode="nearest"), grid)
@@ -106,7 +106,7 @@ class _Zone:
         t, y, z = t[part], y[part], z[part]
         if len(t) < 5:
             raise ProfileError(f"{len(t)} points are too few to smooth; give 20 or more")
-        weight = _gcv_weight(t, z) if noise is None else _noise_weight(t, z, noise)
+        weight = gcv_weight(t, z) if noise is None else _noise_weight(t, z, noise)
         fits = [make_smoothing_spline(t, v, lam=weight) for v in (y, z)]
         return cls(fits[0], fits[1], float(t[0]), float(t[-1]))
 
@@ -123,7 +123,7 @@ def _rms(t: Array, z: Array, log_weight: float) -> float:
     return float(np.sqrt(np.mean((fit(t) - z) ** 2)))
 
 
-def _gcv_weight(t: Array, z: Array) -> float:
+def gcv_weight(t: Array, z: Array) -> float:
     """RELAX times scipy's weight, which it does not tell: that of the same residual."""
     fit = make_smoothing_spline(t, z)
     return RELAX * _weight_of(t, z, float(np.sqrt(np.mean((fit(t) - z) ** 2))))

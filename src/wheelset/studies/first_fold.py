@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from numpy.typing import ArrayLike
+
 from wheelset.bifurcation.curves.branch import Branch, SpecialPoint
 from wheelset.bifurcation.curves.continuation import follow
 from wheelset.bifurcation.cycles.cycle import Cycle
 from wheelset.bifurcation.cycles.cycle_start import cycle_from_hopf
-from wheelset.bifurcation.equilibria.hopf import HopfPoint
+from wheelset.bifurcation.equilibria.hopf import HopfPoint, instabilities
 from wheelset.bifurcation.outcomes import NumericalOutcome
 from wheelset.bifurcation.system import System
 from wheelset.hunting import hunting_system
-from wheelset.studies.hopf_rows import first_hopf, stability_changes
+from wheelset.studies.hopf_rows import first_hopf
 from wheelset.vehicle import Vehicle
 from wheelset.vehicle.geometry import ContactGeometry
 
@@ -60,8 +62,17 @@ def first_fold(
     contact: a geometry to use instead of the vehicle's polynomials. above: the multiple of the Hopf
     speed up to which cycles are followed.
     """
-    system = hunting_system(vehicle, contact)
-    hopf = first_hopf(stability_changes(vehicle, window, contact))
+    return fold_of(hunting_system(vehicle, contact), window, above)
+
+
+def fold_of(
+    system: System,
+    window: tuple[float, float],
+    above: float = ABOVE,
+    rest: ArrayLike | None = None,
+) -> FirstFold:
+    """The same of a system; rest: near the equilibrium (default: the origin)."""
+    hopf = first_hopf(instabilities(system, "v", window, rest))
     if hopf is None:
         words = f"no Hopf point between {window[0]:g} and {window[1]:g} m/s"
         return FirstFold(system, None, None, words)

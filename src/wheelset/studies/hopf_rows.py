@@ -8,17 +8,11 @@ from typing import Any
 from wheelset.bifurcation.equilibria.hopf import HopfPoint, StabilityChange, instabilities
 from wheelset.hunting import hunting_system
 from wheelset.vehicle import Vehicle
-from wheelset.vehicle.geometry import ContactGeometry
 
 
-def stability_changes(
-    vehicle: Vehicle, window: tuple[float, float], contact: ContactGeometry | None = None
-) -> tuple[StabilityChange, ...]:
-    """Every Hopf and static point of a vehicle's straight running over a speed window, m/s.
-
-    contact: a geometry to use instead of the vehicle's polynomials.
-    """
-    return instabilities(hunting_system(vehicle, contact), "v", window)
+def stability_changes(vehicle: Vehicle, window: tuple[float, float]) -> tuple[StabilityChange, ...]:
+    """Every Hopf and static point of a vehicle's straight running over a speed window, m/s."""
+    return instabilities(hunting_system(vehicle), "v", window)
 
 
 def first_hopf(changes: Iterable[StabilityChange]) -> HopfPoint | None:

@@ -9,8 +9,9 @@ from wheelset.profiles import Profile, SplineGeometry, profile_from_points
 from wheelset.studies.on_profiles import on_geometry, searched, speeds_row
 from wheelset.studies.profile_contact import Parameters
 
-#: Spacings of the points, m; standard deviation of the noise, m; samples of it.
-SPACINGS, NOISE, SAMPLES = (5e-5, 1e-4, 2e-4), 5e-6, {"paper": 8, "quick": 2}
+#: Spacings of the points, m, and of those that get noise; its standard deviation, m; samples.
+SPACINGS = {"paper": (5e-5, 1e-4, 2e-4), "quick": (2e-4,)}
+NOISY, NOISE, SAMPLES = (1e-4, 2e-4), 5e-6, {"paper": 8, "quick": 2}
 
 #: The |y| up to which cycles are followed, m: the slowest of the small ones lies within.
 REACH = 0.0045
@@ -31,9 +32,9 @@ def round_trips(p: Parameters) -> pd.DataFrame:
     Columns: spacing m, noise m, seed; v_lin, v_non m/s, the slowest cycle of at most REACH.
     """
     rows = [_row(p, 0.0, 0.0, 0)]
-    rows += [_row(p, spacing, 0.0, 0) for spacing in SPACINGS]
-    seeds = range(SAMPLES[p.resolution])
-    rows += [_row(p, spacing, NOISE, seed) for spacing in SPACINGS[1:] for seed in seeds]
+    spacings, seeds = SPACINGS[p.resolution], range(SAMPLES[p.resolution])
+    rows += [_row(p, spacing, 0.0, 0) for spacing in spacings]
+    rows += [_row(p, s, NOISE, seed) for s in spacings if s in NOISY for seed in seeds]
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
