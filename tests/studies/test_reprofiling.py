@@ -59,8 +59,8 @@ def close_to(contact, y):
 
 
 def test_a_smoothed_sample_is_the_smoothed_profile(monkeypatch):
-    monkeypatch.setattr(smoothing, "_gcv_weight", lambda t, z: 20.0)
-    monkeypatch.setattr(reprofiling_noise, "_gcv_weight", lambda t, z: 20.0)
+    monkeypatch.setattr(smoothing, "gcv_weight", lambda t, z: 20.0)
+    monkeypatch.setattr(reprofiling_noise, "gcv_weight", lambda t, z: 20.0)
     new = packaged("LMB10")
     u = np.linspace(-0.012, 0.02, 300)
     smoother = reprofiling_noise.smoother(new, u, Measurement())
