@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from wheelset.publishing.book import Edition
+from wheelset.publishing.book import Edition, longest_first
 from wheelset.publishing.errors import StaleError
 from wheelset.publishing.fingerprint import hash_package
 from wheelset.publishing.record import Record, environment, products, read_record, write_record
@@ -36,6 +36,13 @@ def published(whole):
 def test_a_fresh_copy_is_published(published):
     assert published.why_stale("1_toy") is None
     check_pages(published.layout, published.why_stale)
+
+
+def test_the_longest_of_the_last_runs_goes_first(published):
+    one = published.sources[0]
+    never = replace(one, path=one.path.with_name("0_new.ipynb"))
+    assert never.stem == "0_new"
+    assert longest_first(published.layout, (never, one)) == (one, never)
 
 
 def test_never_executed(whole):

@@ -16,7 +16,7 @@ from wheelset.publishing.layout import Layout, paper_edition, quick_edition, rea
 from wheelset.publishing.notebooks import Source, find_source, find_sources, upstream
 from wheelset.publishing.parameters import check_parameters, parameters_model, parse_assignments
 from wheelset.publishing.progress import Progress
-from wheelset.publishing.record import why_stale
+from wheelset.publishing.record import read_record, why_stale
 from wheelset.publishing.site import build_site, check_pages, why_site_stale
 from wheelset.publishing.stage import stage_quick, stage_reader
 from wheelset.publishing.tasks import Job, run_jobs
@@ -79,10 +79,24 @@ def make_book(root: Path, progress: Progress, *, quick: bool = False, processes:
         layout.executed.mkdir(parents=True, exist_ok=True)
         stage_quick(layout)
     whole = edition(layout, quick=quick)
-    notebooks = [_notebook_job(whole, source, progress) for source in whole.sources]
+    ordered = longest_first(layout, whole.sources)
+    notebooks = [_notebook_job(whole, source, progress) for source in ordered]
     jobs = [*notebooks, _site_job(whole, progress)]
     run_jobs(jobs, processes, progress, layout.executed / ".doit.json")
     return layout.site / "index.html"
+
+
+def longest_first(layout: Layout, sources: Sequence[Source]) -> tuple[Source, ...]:
+    """Return the sources by the time of their last runs, so that no long one is left for the end.
+
+    Those that never ran keep their order, behind the others.
+    """
+
+    def seconds(source: Source) -> float:
+        record = read_record(layout.record_of(source.stem))
+        return record.seconds if record else 0.0
+
+    return tuple(sorted(sources, key=seconds, reverse=True))
 
 
 def _notebook_job(whole: Edition, source: Source, progress: Progress) -> Job:

@@ -11,7 +11,7 @@ from wheelset.studies.profile_contact import Parameters
 
 #: Spacings of the points, m, and of those that get noise; its standard deviation, m; samples.
 SPACINGS = {"paper": (5e-5, 1e-4, 2e-4), "quick": (2e-4,)}
-NOISY, NOISE, SAMPLES = (1e-4, 2e-4), 5e-6, {"paper": 8, "quick": 2}
+NOISY, NOISE, SAMPLES = (1e-4, 2e-4), 5e-6, {"paper": 6, "quick": 2}
 
 #: The |y| up to which cycles are followed, m: the slowest of the small ones lies within.
 REACH = 0.0045

@@ -83,7 +83,6 @@ def variants(p: Parameters) -> dict[str, Variant]:
         "wheelset steers half": Variant(p.law, {"difference_share": 0.5}),
         "lateral creepage doubled": Variant(p.law, {"yaw": 2 * Operation().yaw}),
         "friction 0.4": Variant(p.law, {"friction": 0.4}),
-        "smoothing 1.5 mm": Variant(p.law, {}, 1.5e-3),
         "smoothing 4 mm": Variant(p.law, {}, 4e-3),
     }
     every = {**laws, **changed}
