@@ -70,6 +70,23 @@ def test_files_are_read_and_their_repairs_told(measured):
     assert "read in m" in " ".join(found["profiles"][0]["notes"])
 
 
+def test_an_origin_that_cannot_be_found_is_stated(tmp_path):
+    """Most of the flange is missing, and the file begins somewhere."""
+    y, z = packaged("LMB10").points(5e-4)
+    tread = y > -0.045
+    path = tmp_path / "part.csv"
+    np.savetxt(path, np.c_[y[tread] + 0.07, z[tread]] * 1e3, delimiter=";", fmt="%.6f")
+    refused = run("conicity", str(path), "CHN60")
+    assert refused.exit_code == 2
+    assert "state the y of the origin" in " ".join(refused.stderr.split())
+    stated = run(
+        "conicity", str(path), "CHN60", "--wheel-origin", "70", "--amplitudes", "3", "--json"
+    )
+    whole = run("conicity", "LMB10", "CHN60", "--amplitudes", "3", "--json")
+    one, other = (json.loads(r.stdout)["conicity"][0]["integration"] for r in (stated, whole))
+    assert one == pytest.approx(other, abs=2e-3)
+
+
 def test_results_go_to_files(tmp_path):
     table, contacts, plot = (tmp_path / name for name in ("a.csv", "b.csv", "c.svg"))
     result = run(

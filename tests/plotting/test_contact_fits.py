@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from tests.plotting.checks import drawn_alike_twice, labelled_with_units
 from wheelset.plotting.contact_fits import branch_panel, fit_panels, noise_panel
 
 
@@ -49,3 +50,8 @@ def test_noise_is_told_from_spacing():
     lin, non = noise_panel(trips).axes
     assert [line.get_ydata()[-1] for line in lin.lines] == [80.0, 80.1, 81.0]
     assert [line.get_ydata()[-1] for line in non.lines] == [70.0, 70.1, 69.0]
+
+
+def test_axes_carry_units_and_figures_are_reproducible(tmp_path):
+    labelled_with_units(lambda: fit_panels(functions(), ["cubic"]))
+    drawn_alike_twice(lambda: fit_panels(functions(), ["cubic"]), tmp_path)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import matplotlib as mpl
 import numpy as np
 import pandas as pd
 import pytest
 
+from tests.plotting.checks import drawn_alike_twice, labelled_with_units
 from wheelset.plotting.contact_formulas import (
     CREEP,
     KALKER,
@@ -14,7 +14,6 @@ from wheelset.plotting.contact_formulas import (
     hertz_panels,
     kalker_panels,
 )
-from wheelset.plotting.style import save
 
 VISITED = pd.DataFrame(
     [("one", 0.2, 4.0, 0.4, 2.5), ("two", 0.5, np.inf, 0.6, np.inf)],
@@ -61,18 +60,12 @@ FIGURES = {f.__name__: f for f in (hertz, table, fits)}
 
 @pytest.mark.parametrize("name", FIGURES)
 def test_axes_carry_units_and_settings_are_left_alone(name):
-    before = dict(mpl.rcParams)
-    figure = FIGURES[name]()
-    assert dict(mpl.rcParams) == before
-    labels = [t for ax in figure.axes for t in (ax.get_xlabel(), ax.get_ylabel()) if t]
-    assert labels
-    assert all("(" in label for label in labels)
+    labelled_with_units(FIGURES[name])
 
 
 @pytest.mark.parametrize("name", FIGURES)
 def test_the_same_figure_gives_the_same_file(name, tmp_path):
-    one, two = (save(FIGURES[name](), tmp_path / f"{k}.svg").read_bytes() for k in (1, 2))
-    assert one == two
+    drawn_alike_twice(FIGURES[name], tmp_path)
 
 
 def test_a_range_without_end_reaches_the_edge():

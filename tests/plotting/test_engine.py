@@ -6,13 +6,12 @@ import json
 import re
 from pathlib import Path
 
-import matplotlib as mpl
 import numpy as np
 import pandas as pd
 import pytest
 
+from tests.plotting.checks import drawn_alike_twice, labelled_with_units
 from wheelset.plotting.engine import convergence_panels, cost_panels, goal_dots, time_bars
-from wheelset.plotting.style import save
 
 RECORD = Path(__file__).parents[2] / "benchmarks" / "results" / "engine.json"
 
@@ -52,18 +51,12 @@ FIGURES = {f.__name__: f for f in (convergence, goals, costs, times)}
 
 @pytest.mark.parametrize("name", FIGURES)
 def test_axes_carry_units_and_settings_are_left_alone(name, record):
-    before = dict(mpl.rcParams)
-    figure = FIGURES[name](record)
-    assert dict(mpl.rcParams) == before
-    labels = [t for ax in figure.axes for t in (ax.get_xlabel(), ax.get_ylabel()) if t]
-    assert labels
-    assert all("(" in label for label in labels)
+    labelled_with_units(lambda: FIGURES[name](record))
 
 
 @pytest.mark.parametrize("name", FIGURES)
 def test_the_same_figure_gives_the_same_file(name, record, tmp_path):
-    one, two = (save(FIGURES[name](record), tmp_path / f"{k}.svg").read_bytes() for k in (1, 2))
-    assert one == two
+    drawn_alike_twice(lambda: FIGURES[name](record), tmp_path)
 
 
 def test_grey_lines_have_the_orders_of_theory(record):

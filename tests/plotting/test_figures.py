@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import matplotlib as mpl
 import numpy as np
 import pandas as pd
 import pytest
 
+from tests.plotting.checks import drawn_alike_twice, labelled_with_units
 from wheelset.plotting.flange import force_law_panels
 from wheelset.plotting.geometry import geometry_panels
 from wheelset.plotting.loci import eigenvalue_panels
 from wheelset.plotting.motion import time_history_panels
-from wheelset.plotting.style import save
 from wheelset.plotting.verdicts import hopf_comparison
 from wheelset.published.figures import PANELS
 from wheelset.studies import flange_models, hopf_point, model
@@ -52,19 +51,12 @@ FIGURES = {f.__name__: f for f in (force_laws, motions, loci, geometry, comparis
 
 @pytest.mark.parametrize("name", FIGURES)
 def test_axes_carry_units_and_settings_are_left_alone(name):
-    before = dict(mpl.rcParams)
-    figure = FIGURES[name]()
-    assert dict(mpl.rcParams) == before
-    labels = [t for ax in figure.axes for t in (ax.get_xlabel(), ax.get_ylabel()) if t]
-    assert labels
-    assert all("(" in label for label in labels)
+    labelled_with_units(FIGURES[name])
 
 
 @pytest.mark.parametrize("name", FIGURES)
 def test_the_same_figure_gives_the_same_file(name, tmp_path):
-    one, two = (save(FIGURES[name](), tmp_path / f"{k}.svg").read_bytes() for k in (1, 2))
-    assert one == two
-    assert len(one) < 400_000
+    drawn_alike_twice(FIGURES[name], tmp_path)
 
 
 @pytest.mark.parametrize(("number", "draw"), [(4, force_laws), (5, motions)])

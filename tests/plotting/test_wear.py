@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from tests.plotting.checks import drawn_alike_twice, labelled_with_units
 from wheelset.plotting.wear import depth_panels, variant_panels, variant_speeds
 
 
@@ -31,3 +32,12 @@ def test_both_speeds_stand_on_the_line_of_their_variant():
     lin, non = ax.lines
     assert list(lin.get_xdata()) == [80.0, 60.0]
     assert list(non.get_ydata()) == [0, 1]
+
+
+def test_axes_carry_units_and_figures_are_reproducible(tmp_path):
+    y = np.linspace(-0.03, 0.03, 7)
+    depths = {"a law": pd.DataFrame({4.8: 1e-4 + 0 * y}, index=y)}
+    conicities = pd.DataFrame({"a": [0.1, 0.2], "b": [0.3, 0.4]}, index=[0.001, 0.002])
+    labelled_with_units(lambda: depth_panels(depths))
+    labelled_with_units(lambda: variant_panels(conicities, "a"))
+    drawn_alike_twice(lambda: variant_panels(conicities, "a"), tmp_path)

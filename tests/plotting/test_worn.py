@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from tests.plotting.checks import labelled_with_units
 from wheelset.plotting import worn, worn_speeds
 from wheelset.published.figures import panel
 from wheelset.published.numbers import TABLE_4
@@ -75,12 +76,7 @@ FIGURES = {
 
 @pytest.mark.parametrize("name", FIGURES)
 def test_axes_carry_units_and_settings_are_left_alone(name):
-    before = dict(mpl.rcParams)
-    figure = FIGURES[name]()
-    assert dict(mpl.rcParams) == before
-    labels = [t for ax in figure.axes for t in (ax.get_xlabel(), ax.get_ylabel()) if t]
-    assert labels
-    assert all("(" in label for label in labels)
+    labelled_with_units(FIGURES[name])
 
 
 @pytest.mark.parametrize(

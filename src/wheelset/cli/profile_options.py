@@ -21,6 +21,18 @@ WheelRight = Annotated[
 RailRight = Annotated[str | None, typer.Option(help="Right rail, if it differs from the left one.")]
 Smooth = Annotated[str, typer.Option(help="Smoothing of files: gcv, none, or the noise in mm.")]
 Unit = Annotated[str | None, typer.Option(help="Unit of files: mm, m, cm, um, in.")]
+WheelOrigin = Annotated[
+    float | None,
+    typer.Option(
+        help="The y of the taping point in wheel files, mm, outward, if it cannot be found."
+    ),
+]
+RailOrigin = Annotated[
+    float | None,
+    typer.Option(
+        help="The y of the head's middle in rail files, mm, outward, if it cannot be found."
+    ),
+]
 
 
 def amplitudes_in_metres(text: str) -> list[float]:
@@ -51,8 +63,10 @@ def inclination(text: str) -> float:
         raise ValueError(f'--cant "{text}": 1:40, 0.025 or 0 is expected') from None
 
 
-def loaded(name: str, kind: Any, smooth: str, unit: str | None) -> Profile:
-    """The packaged profile of that name, or the one in a file."""
+def loaded(
+    name: str, kind: Any, smooth: str, unit: str | None, origin: float | None = None
+) -> Profile:
+    """The packaged profile of that name, or the one in a file; origin: its y there, mm."""
     from wheelset.profiles import load_profile
 
     how: Smoothing
@@ -63,7 +77,8 @@ def loaded(name: str, kind: Any, smooth: str, unit: str | None) -> Profile:
             how = float(smooth) * 1e-3
         except ValueError:
             raise ValueError(f'--smooth "{smooth}": gcv, none or the noise in mm') from None
-    return load_profile(name, kind, smoothing=how, unit=unit)
+    place = None if origin is None else origin * 1e-3
+    return load_profile(name, kind, smoothing=how, unit=unit, origin=place)
 
 
 def distinct(contact: Contact) -> Iterable[Profile]:

@@ -15,9 +15,11 @@ from wheelset.cli.profile_options import (
     BackToBack,
     Cant,
     Gauge,
+    RailOrigin,
     RailRight,
     Smooth,
     Unit,
+    WheelOrigin,
     WheelRight,
     amplitudes_in_metres,
     distinct,
@@ -87,6 +89,8 @@ def conicity(
     rail_right: RailRight = None,
     smooth: Smooth = "gcv",
     unit: Unit = None,
+    wheel_origin: WheelOrigin = None,
+    rail_origin: RailOrigin = None,
     as_json: AsJson = False,
     csv: Annotated[Path | None, typer.Option(help="Write the conicities to this file.")] = None,
     contact_csv: Annotated[
@@ -105,11 +109,18 @@ def conicity(
         wanted = amplitudes_in_metres(amplitudes)
         if plot and plot.suffix.lower() != ".svg":
             raise ValueError(f'--plot {plot}: figures are drawn as SVG; end the name in ".svg"')
+
+        def a_wheel(name: str) -> Profile:
+            return loaded(name, "wheel", smooth, unit, wheel_origin)
+
+        def a_rail(name: str) -> Profile:
+            return _placed(loaded(name, "rail", smooth, unit, rail_origin), en15302)
+
         chosen: dict[str, Any] = {
-            "wheel": loaded(wheel, "wheel", smooth, unit),
-            "wheel_right": wheel_right and loaded(wheel_right, "wheel", smooth, unit),
-            "rail": _placed(loaded(rail, "rail", smooth, unit), en15302),
-            "rail_right": rail_right and _placed(loaded(rail_right, "rail", smooth, unit), en15302),
+            "wheel": a_wheel(wheel),
+            "wheel_right": wheel_right and a_wheel(wheel_right),
+            "rail": a_rail(rail),
+            "rail_right": rail_right and a_rail(rail_right),
         }
         setup = _setup(
             gauge=gauge * 1e-3,

@@ -14,9 +14,11 @@ from wheelset.cli.profile_options import (
     BackToBack,
     Cant,
     Gauge,
+    RailOrigin,
     RailRight,
     Smooth,
     Unit,
+    WheelOrigin,
     WheelRight,
     amplitudes_in_metres,
     inclination,
@@ -44,6 +46,8 @@ def report(
     rail_right: RailRight = None,
     smooth: Smooth = "gcv",
     unit: Unit = None,
+    wheel_origin: WheelOrigin = None,
+    rail_origin: RailOrigin = None,
     amplitudes: Amplitudes = "1:8:1",
     v_min: Annotated[float, typer.Option(min=0.1, help="Lowest speed, m/s.")] = 10.0,
     v_max: Annotated[float, typer.Option(help="Highest speed, m/s.")] = 200.0,
@@ -65,7 +69,11 @@ def report(
         wanted = amplitudes_in_metres(amplitudes)
         window, averaged = _window(v_min, v_max), _width(width)
         car = load_vehicle(vehicle, overrides or ())
-        profiles = _profiles(wheel, rail, wheel_right, rail_right, smooth, unit)
+        wheels, rails = (wheel, wheel_right), (rail, rail_right)
+        profiles = {
+            **_profiles("wheel", wheels, smooth, unit, wheel_origin),
+            **_profiles("rail", rails, smooth, unit, rail_origin),
+        }
         track = _on_track(
             car,
             Setup(gauge=gauge * 1e-3, cant=inclination(cant), back_to_back=back_to_back * 1e-3),
@@ -104,20 +112,11 @@ def _width(width: float) -> float:
 
 
 def _profiles(
-    wheel: str,
-    rail: str,
-    wheel_right: str | None,
-    rail_right: str | None,
-    smooth: str,
-    unit: str | None,
+    kind: str, names: tuple[str, str | None], smooth: str, unit: str | None, origin: float | None
 ) -> dict[str, Profile | None]:
-    """As ``contact_geometry`` takes them."""
-    return {
-        "wheel": loaded(wheel, "wheel", smooth, unit),
-        "rail": loaded(rail, "rail", smooth, unit),
-        "wheel_right": loaded(wheel_right, "wheel", smooth, unit) if wheel_right else None,
-        "rail_right": loaded(rail_right, "rail", smooth, unit) if rail_right else None,
-    }
+    """Left and right one as ``contact_geometry`` takes them."""
+    left, right = (loaded(name, kind, smooth, unit, origin) if name else None for name in names)
+    return {kind: left, f"{kind}_right": right}
 
 
 def _on_track(vehicle: Vehicle, setup: Setup) -> Setup:

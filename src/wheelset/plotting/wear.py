@@ -53,7 +53,7 @@ def variant_panels(conicities: pd.DataFrame, chosen: str) -> Figure:
             markerfacecolor="white", markeredgecolor=INK, label=name,
         )  # fmt: skip
     ax.plot(conicities.index * 1e3, conicities[chosen], color=BLUE, lw=2.6, label=chosen)
-    ax.set(xlabel="amplitude (mm)", ylabel=r"equivalent conicity $\tan\gamma_e$")
+    ax.set(xlabel="amplitude (mm)", ylabel=r"equivalent conicity $\tan\gamma_e$ (-)")
     ax.set_ylim(bottom=0.0)
     figure.legend(*ax.get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return figure
