@@ -23,7 +23,7 @@ test: $(READY)  ## run the tests of the package
 	$(BIN)/python -m pytest --ignore=tests/book --numprocesses=auto --dist=worksteal
 
 check-book: $(READY)  ## check the built book: links, figures, and every page in a browser
-	$(BIN)/python -m pytest tests/book
+	$(BIN)/python -m pytest tests/book --numprocesses=auto --dist=worksteal
 
 bench: $(READY)  ## measure the speed of the kernels
 	$(BIN)/python -m benchmarks
