@@ -37,6 +37,7 @@ def test_what_cannot_be_used_is_refused_with_a_remedy(given, words):
         profile_contact.Parameters(**given)
 
 
+@pytest.mark.slow
 def test_a_file_is_a_profile_too(tmp_path):
     y, z = packaged("LMB10").points(1e-4)
     path = tmp_path / "mine.csv"
@@ -95,6 +96,7 @@ def test_a_fit_that_leads_nowhere_says_why(contact, monkeypatch):
     assert "Newton" in row["words"]
 
 
+@pytest.mark.slow
 def test_spacing_does_not_matter_and_noise_does():
     trips = profile_noise.round_trips(QUICK)
     scatter = profile_noise.scatter(trips)
