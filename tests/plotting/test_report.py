@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 from wheelset.plotting import report, reprofiling
+from wheelset.plotting.style import svg
 
 
 def lines_of(ax):
@@ -43,7 +44,7 @@ def test_without_cycles_straight_running_is_drawn_over_the_window():
 
 def test_svg_is_the_same_for_the_same_figure():
     table = pd.DataFrame({"integration": [0.1, 0.2], "regression": [0.1, 0.15]}, index=[1e-3, 2e-3])
-    one, two = (report.svg(report.conicity_panel(table)) for _ in range(2))
+    one, two = (svg(report.conicity_panel(table)) for _ in range(2))
     assert one == two
     assert one.rstrip().endswith("</svg>")
 

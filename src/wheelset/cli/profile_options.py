@@ -11,6 +11,9 @@ if TYPE_CHECKING:
     from wheelset.profiles import Contact, Profile, Setup
     from wheelset.profiles.smoothing import Smoothing
 
+#: Jumps named one by one.
+MOST_JUMPS = 12
+
 Gauge = Annotated[float, typer.Option(help="Track gauge, mm.")]
 Cant = Annotated[str, typer.Option(help="Rail inclination: 1:40, 0.025 or 0.")]
 BackToBack = Annotated[float, typer.Option(help="Distance of the wheels' back faces, mm.")]
@@ -79,6 +82,13 @@ def loaded(
             raise ValueError(f'--smooth "{smooth}": gcv, none or the noise in mm') from None
     place = None if origin is None else origin * 1e-3
     return load_profile(name, kind, smoothing=how, unit=unit, origin=place)
+
+
+def named_jumps(contact: Contact, where: str) -> list[str]:
+    """The contact's jumps in words, the first MOST_JUMPS one by one; where: the others are."""
+    words = [str(jump) for jump in contact.jumps[:MOST_JUMPS]]
+    left = len(contact.jumps) - MOST_JUMPS
+    return [*words, f"and {left} more{where}"] if left > 0 else words
 
 
 def distinct(contact: Contact) -> Iterable[Profile]:

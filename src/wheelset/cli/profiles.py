@@ -25,6 +25,7 @@ from wheelset.cli.profile_options import (
     distinct,
     inclination,
     loaded,
+    named_jumps,
     setup_words,
 )
 from wheelset.cli.tables import show_json, show_table
@@ -37,9 +38,6 @@ if TYPE_CHECKING:
 
 #: Half the range of displacements that is searched, m, and the spacing of the search, m.
 REACH, SPACING = 0.010, 5e-5
-
-#: Jumps named one by one.
-MOST_JUMPS = 12
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON in SI units instead of tables.")]
 Wheel = Annotated[str, typer.Argument(metavar="WHEEL", help="A packaged name, or a file.")]
@@ -246,9 +244,7 @@ def _show_words(table: ConicityTable, contact: Contact) -> None:
     lines = [setup_words(contact.setup)]
     if table.nonlinearity is not None:
         lines.append(f"nonlinearity parameter (2 to 4 mm): {table.nonlinearity * 1e-3:+.4f} 1/mm")
-    lines += [str(jump) for jump in contact.jumps[:MOST_JUMPS]]
-    if len(contact.jumps) > MOST_JUMPS:
-        lines.append(f"and {len(contact.jumps) - MOST_JUMPS} more jumps, all in --json")
+    lines += named_jumps(contact, " jumps, all in --json")
     lines += [str(reason) for reason in (*table.missing, *contact.ended)]
     for text in lines:
         Console().print(text, highlight=False, soft_wrap=True)

@@ -80,7 +80,7 @@ def report(
         )
     heading = heading_of(context, car, track, profiles)
     try:
-        contact = _contact(track, profiles)
+        contact = _contact(car, track, profiles)
     except ContactOutcome as outcome:
         _finish(_without_contact(heading, outcome), output)
         raise typer.Exit(1) from outcome
@@ -125,15 +125,10 @@ def _on_track(vehicle: Vehicle, setup: Setup) -> Setup:
     return on_track(vehicle, setup)
 
 
-def _contact(track: Setup, profiles: dict[str, Any]) -> Contact:
-    """At the displacements of ``on_profiles.searched``, left and right as given."""
-    import numpy as np
+def _contact(vehicle: Vehicle, track: Setup, profiles: dict[str, Any]) -> Contact:
+    from wheelset.studies.on_profiles import searched
 
-    from wheelset.profiles import contact_geometry
-    from wheelset.studies.on_profiles import SEARCHED
-
-    y = np.linspace(-SEARCHED, SEARCHED, 401)
-    contact = contact_geometry(setup=track, y=y, trim=True, **profiles)
+    contact = searched(vehicle=vehicle, track=track, **profiles)
     _say(f"contact known from {contact.y[0] * 1e3:.2f} to {contact.y[-1] * 1e3:.2f} mm")
     return contact
 

@@ -4,22 +4,19 @@ from __future__ import annotations
 
 from typing import Any
 
-import pandas as pd
-
-from wheelset.cli.profile_options import distinct
+from wheelset.cli.profile_options import distinct, named_jumps
 from wheelset.cli.report_read import number, read_section
 from wheelset.plotting.profiles import contact_lines, profile_panels
-from wheelset.plotting.report import conicity_panel, function_panels, speed_diagram, svg
+from wheelset.plotting.report import conicity_panel, function_panels, speed_diagram
+from wheelset.plotting.style import svg
 from wheelset.profiles import Contact, Profile
 from wheelset.publishing.report_page import Grid, Listing, Page, Picture, Section, Words
+from wheelset.studies.profile_contact import shape
 from wheelset.studies.profile_report import ProfileReport, speeds_table
 from wheelset.studies.profile_report_words import conclusion
 
-#: Jumps named one by one.
-MOST_JUMPS = 12
-
-#: Spacing at which profiles are drawn, m; every so many displacements a contact's line.
-DRAWN, LINES = 2e-4, 10
+#: Every so many displacements a contact's line is drawn.
+LINES = 10
 
 
 def page_of(heading: dict[str, Any], report: ProfileReport) -> Page:
@@ -46,7 +43,7 @@ def page_without_contact(heading: dict[str, Any], words: str) -> Page:
 def _shapes(contact: Contact) -> Section:
     wheel, rail = contact.wheels[0], contact.setup.laid(contact.rails[0])
     frame = contact.to_frame()
-    lines = contact_lines(_points(wheel), _points(rail), frame.iloc[::LINES])
+    lines = contact_lines(shape(wheel), shape(rail), frame.iloc[::LINES])
     alt = (
         f"{wheel.name} above {rail.name}: lines join the places that touch on the left side as "
         f"the wheelset moves from {frame.index[0] * 1e3:.1f} to {frame.index[-1] * 1e3:.1f} mm."
@@ -61,24 +58,15 @@ def _shapes(contact: Contact) -> Section:
 
 
 def _profile_picture(profiles: list[Profile]) -> Picture:
-    figure = profile_panels({p.name: _points(p) for p in profiles})
+    figure = profile_panels({p.name: shape(p) for p in profiles})
     names = ", ".join(p.name for p in profiles)
     alt = f"Height over lateral position of {names}, and the curvature of each below."
     caption = "Profiles as used, and their curvature: positive where convex, cut at 30 1/m."
     return Picture(svg(figure), alt, caption)
 
 
-def _points(profile: Profile) -> pd.DataFrame:
-    y, z = profile.points(DRAWN)
-    return pd.DataFrame({"y": y, "z": z, "curvature": profile.curvature(y)})
-
-
 def _geometry(contact: Contact) -> Section:
-    jumps = [str(jump) for jump in contact.jumps[:MOST_JUMPS]]
-    if len(contact.jumps) > MOST_JUMPS:
-        jumps.append(f"and {len(contact.jumps) - MOST_JUMPS} more")
-    if not jumps:
-        jumps = ["no jump of the contact in this range"]
+    jumps = named_jumps(contact, "") or ["no jump of the contact in this range"]
     known = f"{contact.y[0] * 1e3:.2f} to {contact.y[-1] * 1e3:.2f} mm"
     alt = (
         f"Three panels over the lateral displacement from {known}: rolling radius, contact angle "

@@ -6,14 +6,13 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from wheelset.plotting.style import FAINT, ORANGE, OURS, panels, styled
+from wheelset.plotting.style import FAINT, SIDES, panels, styled
 
 _PANELS = (
     ("dr", 1e3, r"$r - r_0$ (mm)", "rolling radius"),
     ("delta", 1.0, r"$\delta$ (rad)", "contact angle"),
     ("rho", 1.0, r"$\rho$ (1/m)", "sum of curvatures"),
 )
-_SIDES = {"left": (OURS, "-"), "right": (ORANGE, "--")}
 
 
 @styled
@@ -26,7 +25,7 @@ def geometry_panels(geometry: pd.DataFrame, domain: pd.DataFrame) -> Figure:
     low, high = float(domain["low"].max()), float(domain["high"].min())
     for ax, (column, scale, label, title) in zip(axes, _PANELS, strict=True):
         for side, curve in geometry.groupby("side"):
-            color, line = _SIDES[str(side)]
+            color, line = SIDES[str(side)]
             ax.plot(
                 curve["y"] * 1e3, curve[column] * scale, line, color=color, label=f"{side} wheel"
             )

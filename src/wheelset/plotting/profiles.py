@@ -8,9 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from wheelset.plotting.style import FAINT, GREEN, INK, ORANGE, OURS, panels, styled
-
-_SIDES = {"left": (OURS, "-"), "right": (ORANGE, "--")}
+from wheelset.plotting.style import FAINT, GREEN, INK, OURS, SIDES, panels, styled
 
 #: Displacements whose contact lines are labelled, and how far apart the labels are at least, mm.
 _LABELLED, _APART = 2.0, 5.0
@@ -91,21 +89,22 @@ def conicity_panels(contact: pd.DataFrame, conicity: pd.DataFrame) -> Figure:
     axes[2].set(title="contact on the wheel", ylabel="place (mm)")
     for ax in axes[:3]:
         ax.set_xlabel("lateral displacement $y$ (mm)")
-    _conicities(axes[3], conicity)
+    draw_conicities(axes[3], conicity)
+    axes[3].set(title="equivalent conicity", xlabel="amplitude (mm)", ylabel=r"$\tan\gamma_e$ (-)")
     return figure
 
 
 def _by_side(
     ax: Axes, y: NDArray[np.float64], contact: pd.DataFrame, column: str, scale: float
 ) -> None:
-    for side, (color, line) in _SIDES.items():
+    for side, (color, line) in SIDES.items():
         ax.plot(y, contact[f"{column}_{side}"] * scale, line, color=color, label=side)
 
 
-def _conicities(ax: Axes, conicity: pd.DataFrame) -> None:
+def draw_conicities(ax: Axes, conicity: pd.DataFrame) -> None:
+    """Conicity over the amplitude, mm: indexed by amplitude m; integration, regression."""
     amplitude = conicity.index.to_numpy(float) * 1e3
     ax.plot(amplitude, conicity["integration"], "o-", color=OURS, label="integration")
     ax.plot(amplitude, conicity["regression"], "s--", color=GREEN, label="regression")
-    ax.set(title="equivalent conicity", xlabel="amplitude (mm)", ylabel=r"$\tan\gamma_e$ (-)")
     ax.set_ylim(bottom=0.0)
     ax.legend()

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from io import StringIO
 from typing import Any
 
-import matplotlib as mpl
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from wheelset.bifurcation.curves.branch import Branch
 from wheelset.plotting.branches import Quantity, add_legend, draw_branch
-from wheelset.plotting.style import BLUE, FAINT, GREEN, INK, ORANGE, OURS, panels, styled
-
-_SIDES = {"left": (OURS, "-"), "right": (ORANGE, "--")}
+from wheelset.plotting.profiles import draw_conicities
+from wheelset.plotting.style import BLUE, FAINT, GREEN, INK, ORANGE, SIDES, panels, styled
 
 #: Titles, columns and scales of the functions of y.
 _FUNCTIONS = (
@@ -40,7 +37,7 @@ def function_panels(contact: pd.DataFrame, jumps: Sequence[float]) -> Figure:
     figure, axes = panels(3, 1, 7.4, sharex=True)
     y = contact.index.to_numpy(float) * 1e3
     for ax, (name, label, scale) in zip(axes, _FUNCTIONS, strict=True):
-        for side, (color, line) in _SIDES.items():
+        for side, (color, line) in SIDES.items():
             ax.plot(y, contact[f"{name}_{side}"] * scale, line, color=color, label=side)
         for jump in jumps:
             ax.axvline(jump * 1e3, color=FAINT, linewidth=0.9, linestyle=":")
@@ -54,12 +51,8 @@ def function_panels(contact: pd.DataFrame, jumps: Sequence[float]) -> Figure:
 def conicity_panel(conicity: pd.DataFrame) -> Figure:
     """Equivalent conicity over the amplitude: indexed by amplitude m; integration, regression."""
     figure, (ax,) = panels(1, 1, 3.2)
-    amplitude = conicity.index.to_numpy(float) * 1e3
-    ax.plot(amplitude, conicity["integration"], "o-", color=OURS, label="integration")
-    ax.plot(amplitude, conicity["regression"], "s--", color=GREEN, label="regression")
+    draw_conicities(ax, conicity)
     ax.set(xlabel="amplitude (mm)", ylabel=r"$\tan\gamma_e$ (-)")
-    ax.set_ylim(bottom=0.0)
-    ax.legend()
     return figure
 
 
@@ -112,11 +105,3 @@ def _slower(v: Any) -> Any:
 def _faster(v: Any) -> Any:
     """m/s to km/h."""
     return v * SPEED.factor
-
-
-def svg(figure: Figure) -> str:
-    """A figure as SVG text, the same for the same figure."""
-    text = StringIO()
-    with mpl.rc_context({"svg.hashsalt": "wheelset"}):
-        figure.savefig(text, format="svg", metadata={"Date": None})
-    return text.getvalue()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import wraps
+from io import StringIO
 from pathlib import Path
 from typing import Any, ParamSpec
 
@@ -20,6 +21,9 @@ INK, FAINT = "#222222", "#8A8A8A"
 
 #: Colours of what the paper prints and of what is computed here.
 PAPER, OURS, OTHER = INK, BLUE, ORANGE
+
+#: Colours and lines of the left and the right wheel.
+SIDES = {"left": (OURS, "-"), "right": (ORANGE, "--")}
 
 # The panel is white on purpose: the book's dark mode leaves it as a card instead of inverting it.
 _STYLE: Any = {
@@ -74,6 +78,13 @@ def save(figure: Figure, path: str | Path) -> Path:
     """Write a figure as SVG, byte for byte the same for the same figure; returns the path."""
     target = Path(path)
     target.parent.mkdir(parents=True, exist_ok=True)
-    with mpl.rc_context({"svg.hashsalt": "wheelset"}):
-        figure.savefig(target, format="svg", metadata={"Date": None})
+    target.write_bytes(svg(figure).encode())
     return target
+
+
+def svg(figure: Figure) -> str:
+    """A figure as SVG text, the same for the same figure."""
+    text = StringIO()
+    with mpl.rc_context({"svg.hashsalt": "wheelset"}):
+        figure.savefig(text, format="svg", metadata={"Date": None})
+    return text.getvalue()

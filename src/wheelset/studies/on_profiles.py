@@ -75,11 +75,20 @@ def on_track(vehicle: Vehicle, track: Setup | None = None) -> Setup:
 
 
 def searched(
-    wheel: Profile, rail: Profile, vehicle: Vehicle, track: Setup | None = None
+    wheel: Profile,
+    rail: Profile,
+    vehicle: Vehicle,
+    track: Setup | None = None,
+    *,
+    wheel_right: Profile | None = None,
+    rail_right: Profile | None = None,
 ) -> Contact:
     """The contact of a vehicle's wheelset at -10..10 mm every 0.05 mm, as far as it goes."""
     y = np.linspace(-SEARCHED, SEARCHED, 401)
-    return contact_geometry(wheel, rail, on_track(vehicle, track), y, trim=True)
+    return contact_geometry(
+        wheel, rail, on_track(vehicle, track), y,
+        wheel_right=wheel_right, rail_right=rail_right, trim=True,
+    )  # fmt: skip
 
 
 def on_profiles(

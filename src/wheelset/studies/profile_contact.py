@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Annotated, Self
 
 import numpy as np
@@ -70,7 +71,7 @@ class Parameters(WindowParameters):
         assert self.profiles
         return self
 
-    @property
+    @cached_property
     def profiles(self) -> tuple[Profile, Profile]:
         """Wheel and rail; ProfileError, which is a ValueError, says what is wrong with one."""
         return load_profile(self.wheel, "wheel"), load_profile(self.rail, "rail")

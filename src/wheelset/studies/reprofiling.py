@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import pandas as pd
@@ -84,10 +85,10 @@ class Parameters(WearParameters):
     @model_validator(mode="after")
     def _wheels_are_read(self) -> Parameters:
         if self.measured:
-            _read(self.measured)
+            assert self.wheels
         return self
 
-    @property
+    @cached_property
     def wheels(self) -> dict[float, Profile]:
         """By mileage, ascending: your own, or the new wheel and the simulated ones."""
         if self.measured:

@@ -86,8 +86,7 @@ def case(plan: Plan, mileage: float, wheel: Profile) -> Case:
 
 def _turns(run: OnProfiles) -> list[Any]:
     """Folds at which the speed is least: those at which cycles end as the speed falls."""
-    table = [] if run.branch is None else run.branch.special
-    folds = [point for point in table if point.kind == "LPC"]
+    folds = run.folds
     v = [float(point.values[0]) for point in folds]
     hopf = np.inf if run.hopf is None else run.hopf.value
     lowest = [k for k, at in enumerate(v) if at <= min([*v[:k], hopf])]
